@@ -15,12 +15,13 @@ namespace antilock {
 
 /// Options of the outer loop.
 struct CorrectionOptions {
-  /// On the estimated algebraic error of u in the maximum norm, relative to the largest |u|. The
-  /// default is far below discretisation errors.
+  /// The tolerance for the estimated algebraic error of u in the maximum norm, relative to the
+  /// largest |u|. The default is far below discretisation errors.
   double tolerance = 1e-10;
   int max_corrections = defaults::max_corrections;  ///< after these: NotConverged
   ProgressHook progress = {};                       ///< called after each correction but the last
-  /// The accuracy of the contact solver, relative to the largest |u|. 0: it works to round-off.
+  /// The accuracy of the contact solver, relative to the largest |u|. 0: it is exact up to
+  /// round-off.
   double contact_tolerance = 0;
 
   /// Returns the KKT violation above which no solution is returned, max(KktTolerances::fail, 10
@@ -30,22 +31,24 @@ struct CorrectionOptions {
 
 struct ActiveSetOptions {
   CorrectionOptions corrections;
-  std::optional<double> penalty;  ///< delta, where the compliance is smaller; empty: choose_penalty
-  ContactReduction reduction = ContactReduction::automatic;  ///< where the solver makes the factor
-  /// In one correction; after these: NotConverged.
+  /// delta is the larger one of this penalty and the compliance. Empty: choose_penalty. Not used if
+  /// a factor is given.
+  std::optional<double> penalty;
+  ContactReduction reduction = ContactReduction::automatic;  ///< not used if a factor is given
+  /// The largest number of contact iterations in one correction; NotConverged beyond.
   int max_contact_iterations = 1000;
   std::optional<BoundStatuses> start;  ///< C statuses; empty: the nested start
 };
 
-/// Solves a discrete variational inequality, and cannot know whether the element locks: `solve`
-/// (analysis/solve.hpp) reports that.
+/// Solves a discrete variational inequality. It receives matrices and no mesh, so it cannot know
+/// whether the element locks. `solve` (analysis/solve.hpp) reports that.
 ///
 /// There are two nested loops. The outer one is the iterated penalty method: the proximal point
-/// method on the dual problem for the layer stress p = compliance^-1 B u (R. T. Rockafellar, SIAM J.
-/// Control Optim. 14, 1976). It corrects u and p by one Cholesky factor
-/// of K = A1 + delta^-1 B' M B, where delta >= compliance is the penalty. The inner loop is the
-/// active set method of contact.hpp: it finds the contact set of each correction. With L the load
-/// and E' lambda the forces lambda of the bounds on the unknowns (problem/bounds.hpp):
+/// method on the dual problem for the layer stress p = compliance^-1 B u (R. T. Rockafellar, SIAM
+/// J. Control Optim. 14, 1976). It corrects u and p by one Cholesky factor of
+/// K = A1 + delta^-1 B' M B, where delta >= compliance is the penalty. The inner loop is the active
+/// set method of contact.hpp: it finds the contact set of each correction. With L the load and
+/// E' lambda the forces lambda of the bounds on the unknowns (problem/bounds.hpp):
 ///
 ///     u = 0 but for the prescribed values, p = 0, lambda = 0;  repeat:
 ///       r1 = L - A1 u - B' M p + E' lambda,  r2 = compliance p - B u            residual.hpp
@@ -61,9 +64,10 @@ struct ActiveSetOptions {
 ///
 /// Rows of B with fixed compliances have penalties of their own (PenalisedCholesky::penalties).
 ///
-/// Residuals never use the assembled sum K. They carry no cancellation error, and only the factor
-/// does. Therefore a small compliance costs u no digits (measured: tests/hard), and at compliance 0
-/// the method solves (7) of [SR04] without a penalty error (problem/variational_inequality.hpp).
+/// Residuals never use the assembled sum K, so they carry no cancellation error. The factor does,
+/// but this only slows the corrections down. Therefore a small compliance costs u no digits
+/// (measured: tests/hard), and at compliance 0 the method solves (7) of [SR04] without a penalty
+/// error (problem/variational_inequality.hpp).
 ///
 /// Once the contact set stays the same, each correction multiplies the error of a mode with
 /// a0 = sigma a1, sigma > 0, by (delta - compliance) / (delta + sigma) < 1. So these modes converge
@@ -71,15 +75,15 @@ struct ActiveSetOptions {
 /// accelerates the slow ones, and after every defaults::corrections_per_penalty corrections delta
 /// is divided by defaults::penalty_reduction, but stays at least the compliance.
 ///
-/// Constraints c . u are solved for in slack form (detail/slack_form.hpp). Without bounds this is a
-/// linear solve. Counters::contact_iterations is the largest number of iterations of one
-/// correction, those of the nested start not included. Throws Error for a malformed problem or
-/// option, and NotConverged in place of a solution that has not converged.
+/// Constraints c . u are solved for in slack form (detail/slack_form.hpp). Without bounds each
+/// correction is one linear solve. Counters::contact_iterations is the largest number of iterations
+/// of one correction, those of the nested start not included. Throws Error for a malformed problem
+/// or option, and NotConverged in place of a solution that has not converged.
 ///
 /// Reading order: problem/variational_inequality.hpp, bound_status.hpp, contact.hpp, residual.hpp,
 /// this header, forward_error.hpp. The constants and their reasons are in defaults.hpp. The outer
-/// loop is IteratedPenalty::solve in active_set.cpp; a loop with another stopping criterion changes
-/// one condition there.
+/// loop is IteratedPenalty::solve in active_set.cpp; to use another stopping criterion, change one
+/// condition there.
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options = {});
 
 /// Does the same with a factor that exists already, for a sweep over loads, bounds or compliances
@@ -88,9 +92,9 @@ Solution active_set(const VariationalInequality& problem, PenalisedCholesky& fac
                     const ActiveSetOptions& options = {});
 
 /// Solves the contact problem of one correction, in which v and lambda are increments to the
-/// current iterate. The system is a SchurComplementContact or a SparseContact, as the factor
-/// decides. `before` is the result of the last correction and empty in the first one, u_scale is
-/// the largest |u|.
+/// current iterate. The factor determines whether the system is a SchurComplementContact or a
+/// SparseContact. `before` is the result of the last correction, and is empty in the first one.
+/// `u_scale` is the largest |u|.
 using ContactSolver =
     std::function<ContactResult(ContactSystem&, const Bounds&, const ContactResult& before, double u_scale)>;
 

@@ -14,14 +14,15 @@ namespace antilock {
 /// G. Anderson, J. ACM 12, 1965). For a linear iteration it is equivalent to GMRES.
 ///
 /// Mixing leaves the iteration matrix T of plain steps unchanged: near the solution a plain step
-/// multiplies the error of x by T, whatever the start. So the contraction of plain steps bounds the
-/// error that a plain step after a mix leaves. A slow mode that has a small component in all starts
-/// of the history is not seen. Where the steps g are round-off, the weights of a mix are arbitrary.
-/// They do no harm while all vectors of the history are near the solution.
+/// multiplies the error of x by T, whatever the start. So a plain step after a mix still reduces
+/// the error at least by the contraction of plain steps. The measured contraction misses a slow
+/// mode whose component is small in all starts of the history. Where the steps g are round-off, the
+/// weights of a mix are arbitrary. This does no harm while all vectors of the history are near the
+/// solution.
 class Anderson {
  public:
-  /// The iterates that are kept. Depth 6 can eliminate five slow modes: two to five were seen, in
-  /// locked P1. Each iterate costs vectors of the sizes of u and p.
+  /// The number of iterates that are kept. With 6 iterates a mix can eliminate five slow modes. Two
+  /// to five were observed in locked P1. Each iterate costs vectors of the sizes of u and p.
   static constexpr std::size_t depth = 6;
 
   /// Adds a plain step from some start x to the history: `iterate` = x + g, the step g, and
@@ -38,21 +39,22 @@ class Anderson {
       gain = std::max(gain, (affine_image - past_[i].affine_image).lpNorm<Eigen::Infinity>() / apart);
     }
     contraction_ = std::min(most, defaults::max_contraction);
-    // else the last one: another contact set hardly changes it, a smaller penalty makes it smaller
+    // otherwise gain_ keeps its last value, which another contact set hardly changes and a smaller
+    // penalty only reduces
     if (gain > 0) gain_ = gain;
   }
 
   /// Estimates the change of the affine image by the next step: |g| of the last step times the
   /// gain. The gain is the largest ratio, over pairs of the history, of the distance of two affine
   /// images in the maximum norm to the distance of their starts. It is 0 before two starts are
-  /// known. (A step of the affine image itself would be no estimate, because round-off that a mix
-  /// leaves in a start is in g and in the affine image, but in no difference of two images.)
+  /// known. (The last step of the affine image itself is no estimate: it contains the round-off
+  /// that a mix leaves in a start. A difference of two images does not contain it.)
   double next_affine_image_step() const { return past_.empty() ? 0 : gain_ * past_[0].g.norm(); }
 
   /// Estimates the contraction of a plain step: the largest ratio, over the last start and each one
   /// before it, of the distance of the iterates to the distance of the starts. It lies between 1 -
-  /// defaults::max_contraction and defaults::max_contraction, and is the latter where there is one
-  /// start alone. It is valid for any starts. (The ratio of two steps |g| is not: a mix makes g
+  /// defaults::max_contraction and defaults::max_contraction, and is the latter while there is only
+  /// one start. It is valid for any starts. (The ratio of two steps |g| is not: a mix makes g
   /// smaller, but not the error by the same factor.)
   double contraction() const { return contraction_; }
 

@@ -17,7 +17,7 @@ namespace antilock {
 /// mechanics calls the branches open, stick and slip):
 ///
 ///     slip_below   v <= lower, lambda = +g        the lower bound has reached its force limit
-///     at_lower     v = lower,  0 <= lambda <= g   (from -g on where lower = upper: an equation)
+///     at_lower     v = lower,  0 <= lambda <= g   (-g <= lambda if lower = upper: an equation)
 ///     inactive     lower <= v <= upper, lambda = 0
 ///     at_upper     v = upper, -g <= lambda <= 0
 ///     slip_above   v >= upper, lambda = -g        the upper bound has reached its force limit
@@ -34,8 +34,8 @@ inline bool is_active(BoundStatus status) { return status == BoundStatus::at_low
 /// friction differ only in the statuses that exist.
 struct Bounds {
   Eigen::VectorXd lower;             ///< C; -infinity: no lower bound
-  Eigen::VectorXd upper = {};        ///< C, or empty: no upper bounds; +infinity: none here
-  Eigen::VectorXd force_limit = {};  ///< C, or empty: no limits; the largest |lambda|; +infinity: a hard bound
+  Eigen::VectorXd upper = {};        ///< C, or empty: no upper bounds; +infinity: bound i has none
+  Eigen::VectorXd force_limit = {};  ///< C, or empty; the largest |lambda|; +infinity: a hard bound
   /// C, or empty for 0: the multipliers lambda that the earlier corrections have found.
   /// prescribed() and admissible_range() describe lambda - multiplier_estimate, the increment that
   /// a correction solves for.

@@ -8,7 +8,7 @@
 namespace antilock {
 
 /// The solution of K v = q + lambda for given statuses of the C bounds: each bound prescribes
-/// either its value or its force. The other one of the two is a result and may lie outside its
+/// either its value or its force. The other one of the two is computed, and may lie outside of its
 /// admissible range.
 struct FixedStatusSolution {
   Eigen::VectorXd v;       ///< n, all unknowns of the system
@@ -20,8 +20,8 @@ struct FixedStatusSolution {
 
 /// The linear system K v = q + lambda of a contact problem. K (n x n) is symmetric positive
 /// definite, C of its unknowns are bounded, and lambda acts on these. There are two kinds:
-/// SchurComplementContact has the bounded unknowns alone, n = C, because the others are condensed
-/// out once. SparseContact has all free unknowns and factors K for every active set.
+/// SchurComplementContact has only the bounded unknowns, n = C, because the others are condensed
+/// out once. SparseContact has all free unknowns, and factors K for every active set.
 class ContactSystem {
  public:
   explicit ContactSystem(std::vector<int> bounded) : bounded_(std::move(bounded)) {}
@@ -50,23 +50,36 @@ struct ContactResult {
 ///
 ///     J(v) = v' K v / 2 - q' v + sum_i g_i dist(v_i, [lower_i, upper_i])
 ///
-/// over all v with lower_i <= v_i <= upper_i at the hard bounds i; the sum is over the bounds with
+/// over all v with lower_i <= v_i <= upper_i at the hard bounds i. The sum is over the bounds with
 /// a force limit g_i. Equivalently lambda = K v - q, and each pair (v_i, lambda_i) satisfies the
-/// law of bound i (bound_status.hpp).
+/// law of bound i (bound_status.hpp). Where Bounds has a multiplier estimate, q stands here for q
+/// minus the estimate.
 ///
-/// The method is an active set method with a projected search. The *face* of given statuses is the
-/// set of all v with these statuses. On its affine hull J is a quadratic, and w denotes the
-/// minimiser of this quadratic there. v starts at the first w, with each violated value moved to
-/// its bound. Every iteration solves one linear system for w. Then
-/// - w in the face: v = w, and each bound whose force is outside its range is released, that is,
-///   takes the next status. Where there is none, v is the solution.
-/// - else: v moves towards w, and each value that meets a bound on its way stays there, active.
+/// The method is an active set method with a projected search. A status prescribes either the value
+/// or the force of its bound. The *face* of given statuses is the set of all v with v_i at its
+/// bound where status i is active, and in the range of status i elsewhere. On the face J is equal
+/// to
 ///
-/// The length of the step. Breakpoints are the fractions of the step at which values meet their
-/// bounds. The full step is tried first, then the step up to the breakpoint at which half of the
-/// violated values have stopped, then a quarter and so on, until J is lower than at the first
-/// breakpoint. The last choice is the first breakpoint itself. The comparison is cheap, because
-/// J(v) = J(w) + (v - w)' K (v - w) / 2 on the affine hull.
+///     Q(v) = v' K v / 2 - q' v + sum of g_i (lower_i - v_i) over the bounds i that slip below
+///                              + sum of g_i (v_i - upper_i) over the bounds i that slip above.
+///
+/// The affine hull of the face contains all v with the active values at their bounds. On the rest
+/// of the affine hull J is at least Q. Let w be the minimiser of the quadratic Q on the affine
+/// hull. It solves the linear system of FixedStatusSolution, because this system is the optimality
+/// condition of Q.
+///
+/// v starts at the first w. Each value that is outside of its range is moved to the end of this
+/// range, and its bound becomes active. Every iteration solves one linear system for w. Then
+/// - If w is in the face, v is set to w. Each bound whose force is outside of its range is
+///   released: it takes the next status. If there is no such bound, v is the solution.
+/// - Otherwise v moves towards w. Each value that meets the end of its range on the way stays
+///   there, and its bound becomes active.
+///
+/// The length of the step. Breakpoints are the fractions of the step at which values meet the ends
+/// of their ranges. The full step is tried first, then the step up to the breakpoint at which half
+/// of the violated values have stopped, then a quarter and so on, until J is lower than at the
+/// first breakpoint. The last choice is the first breakpoint itself. The comparison is cheap,
+/// because all these points are in the face, and J(v) = Q(v) = Q(w) + (v - w)' K (v - w) / 2 there.
 ///
 /// Claim. In exact arithmetic the iteration ends with the minimiser, whatever the start.
 ///
@@ -74,48 +87,62 @@ struct ContactResult {
 ///
 /// Proof.
 ///
-/// (a) v is always in the closed face of its statuses. A value that is in its range at w stays in
-/// it all the way to w, because ranges are intervals, and the others stop at their bounds.
+/// (a) v is always in the face of its statuses. On the way to w, a value that is in its range at w
+/// stays in this range, because ranges are intervals. Every other value stops at the end of its
+/// range, which is the value that its next, active status prescribes. A released value is at the
+/// end of the range of its new status.
 ///
-/// (b) A step towards w never raises J. Up to the first breakpoint J does not rise, since w
-/// minimises it on the affine hull, and a longer step is taken only where J is lower than at that
-/// breakpoint.
+/// (b) A step towards w never raises J. Up to the first breakpoint v stays in the face, where J is
+/// equal to Q. Q does not rise, because w minimises it on the affine hull. A longer step is taken
+/// only where J is lower than at that breakpoint.
 ///
-/// (c) Such a step makes one bound or more active. So after at most C of them in a row w is in the
-/// face.
+/// (c) Such a step makes at least one bound active, and releases none. So after at most C of them
+/// in a row w is in the face.
 ///
-/// (d) A release leaves v = w and J(v) as they are. Let lambda_i be the force of a released bound,
-/// lambda_i' the force that its new status prescribes, w' the minimiser for the new statuses, and
-/// d = w' - w. At the other unknowns where d is not 0, K w - q - lambda vanishes. Therefore
+/// (d) A release leaves v = w and J(v) as they are. Let i be a released bound. Its force lambda_i
+/// at w is outside of its range, and its new status prescribes the force lambda_i' at the end of
+/// this range. So lambda_i' is not lambda_i. Let w' be the minimiser for the new statuses, lambda'
+/// its forces, and d = w' - w. Then K d = lambda' - lambda. At a bound that is not released, either
+/// both statuses prescribe the value, and d_i = 0, or both prescribe the same force. An unknown
+/// without a bound has no force. Therefore
 ///
-///     sum over the released i of (lambda_i - lambda_i') d_i = -d' K d < 0.
+///     sum over the released i of (lambda_i - lambda_i') d_i = -d' K d < 0,
 ///
-/// So one released value at least has (lambda_i - lambda_i') d_i < 0, that is, it leaves its bound
-/// into the range of its new status.
+/// and d is not 0, because lambda' - lambda is not. So the term of at least one released bound is
+/// negative. The value of this bound grows if its force was too small, and falls if its force was
+/// too large: it leaves the bound into the range of its new status.
 ///
-/// (e) Steps of length 0 make the bounds active again whose values would leave in the wrong
-/// direction. (d) holds for the bounds that remain released, so that one always remains, and there
-/// are at most C such steps. Then v moves, and J falls strictly, because d is not 0.
+/// (e) Between two releases J falls strictly. First let w' be in the face. Then v is set to w', and
+/// J falls by d' K d / 2. Otherwise v moves towards w'. If the first breakpoint is not v itself, J
+/// falls strictly, because w' is the only minimiser of Q and is not v. If it is v itself, some
+/// values are at the end of their range already, and w' is beyond it. A step of positive length is
+/// taken only if J falls strictly. Otherwise the step has the length 0: the bounds of these values
+/// become active, and v and J stay. Some of these bounds may be released ones. But a bound with a
+/// negative term in (d) is not among them, because its value moves into its range. So at least one
+/// bound is still released. (d) holds again for the next w' and for the bounds that are still
+/// released, because d_i is 0 at each bound that has become active. Each step of length 0 makes a
+/// bound active, so there are at most C of them, and then J falls strictly.
 ///
-/// (f) So J is strictly lower at every release than at the one before. Its value there depends on
-/// the statuses alone, and there are finitely many of them. Therefore the iteration ends. At its
-/// end all values and forces are in their ranges, and since J is strictly convex, these conditions
-/// hold at its minimiser alone. End of the proof.
+/// (f) So J is strictly lower at every release than at the one before. At a release v = w, and J(w)
+/// depends on the statuses alone. There are finitely many statuses. Therefore the iteration ends.
+/// At its end all values and forces are in their ranges. Since J is strictly convex, only its
+/// minimiser satisfies these conditions. End of the proof.
 ///
-/// In floating-point arithmetic a force counts as outside its range beyond its round-off only.
-/// Statuses that come back do so by round-off: their minimiser is returned, and the KKT report
-/// (kkt.hpp) checks it. (The projection is that of D. P. Bertsekas, SIAM J. Control Optim. 20,
-/// 1982; the release that of J. J. More and G. Toraldo, SIAM J. Optim. 1, 1991.)
+/// In floating-point arithmetic a force counts as outside of its range only if it is outside by
+/// more than its round-off. If the same statuses occur at two releases, round-off is the reason.
+/// The iteration then returns their minimiser, and the KKT report (kkt.hpp) checks it. (The
+/// projection is that of D. P. Bertsekas, SIAM J. Control Optim. 20, 1982. The release is that of
+/// J. J. More and G. Toraldo, SIAM J. Optim. 1, 1991.)
 ///
-/// `start` has C statuses; without it the iteration starts from ContactSystem::nested_start. Throws
+/// `start` has C statuses. Without it the iteration starts from ContactSystem::nested_start. Throws
 /// NotConverged after max_iterations linear systems, and Error where K is not positive definite.
 ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const std::optional<BoundStatuses>& start,
                             int max_iterations);
 
-/// Returns C statuses to start from. `coarse` is the same problem with every second bound alone (1,
-/// 3, 5, ...), and its solution gives the statuses of these. Each of the other bounds has the
-/// status of its two neighbours in the order of the bounds where they agree, and is inactive where
-/// they do not. Throws as solve_contact does.
+/// Returns C statuses to start from. `coarse` is the same problem with only every second bound (1,
+/// 3, 5, ...), and its solution gives the statuses of these bounds. Each of the other bounds takes
+/// the status of its two neighbours in the order of the bounds if they agree, and is inactive
+/// otherwise. Throws as solve_contact does.
 BoundStatuses coarse_start(const Bounds& bounds, ContactSystem& coarse, int max_iterations);
 
 }  // namespace antilock

@@ -13,11 +13,11 @@ class SchurComplementContact final : public ContactSystem {
 
   FixedStatusSolution solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) override;
   double energy_norm_squared(const Eigen::VectorXd& d) const override { return d.dot(s_ * d); }
-  /// Solves the problem with a bound on every second unknown alone, by the same method down to one
+  /// Solves the problem in which only every second unknown is bounded, recursively down to one
   /// bound, and transfers the statuses (coarse_start). With it the number of iterations hardly
-  /// depends on the mesh width. The unknowns that are left out become free and are condensed out,
-  /// which keeps S right for energies of any order. Interpolated functions, P' S P, would be far
-  /// too stiff for a beam, because its bending energy is infinite at their kinks.
+  /// depends on the mesh width. The unknowns whose bounds are left out become free and are
+  /// condensed out, so that S is exact for energies of any order. Interpolated functions, P' S P,
+  /// would be far too stiff for a beam, because its bending energy is infinite at their kinks.
   BoundStatuses nested_start(const Bounds& bounds, int max_iterations) override;
 
   const Eigen::MatrixXd& s() const { return s_; }
@@ -41,13 +41,13 @@ class SparseContact final : public ContactSystem {
   double energy_norm_squared(const Eigen::VectorXd& d) const override { return d.dot(k_.times(d)); }
   /// Coarsens K by smoothed aggregation (P. Vanek, J. Mandel, M. Brezina, Computing 56, 1996),
   /// solves the contact problem of the coarse matrix P' K P by the same method, and gives each
-  /// bound the status of all groups on which its unknown depends, where they agree; otherwise the
+  /// bound the status of the aggregates on which its unknown depends, if these agree. Otherwise the
   /// bound is inactive. It needs no mesh. An active set that is too small costs less than one that
   /// is too large: missing active bounds are added within one or two iterations, excess ones are
   /// released one row of cells per iteration. (Measured at 65,025 bounds: 7 iterations, and 30
   /// without the smoothing.) Aggregation supposes that constants cost no energy. Where they do (the
-  /// rotations of beams and plates), the start is the solution with every second bound alone
-  /// (coarse_start). That is right for every K, but each of its factors is one of the whole K.
+  /// rotations of beams and plates), the start is the solution with only every second bound
+  /// (coarse_start). This is right for every K, but each of its iterations factors the whole K.
   BoundStatuses nested_start(const Bounds& bounds, int max_iterations) override;
 
  private:

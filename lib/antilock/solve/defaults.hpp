@@ -1,9 +1,9 @@
 #pragma once
 #include <limits>
 
-/// The constants of solve/ and their reasons. Tolerances that are promises stand in KktTolerances
-/// and CorrectionOptions, the constants of the penalty in problem/choose_penalty.hpp, and that of
-/// the contact reduction in penalised_cholesky.hpp. All are dimensionless.
+/// The constants of solve/ and their reasons. Tolerances that a user can rely on stand in
+/// KktTolerances and CorrectionOptions, the constants of the penalty in problem/choose_penalty.hpp,
+/// and that of the contact reduction in penalised_cholesky.hpp. All are dimensionless.
 namespace antilock::defaults {
 
 /// The distance from 1 to the next double, 2.2e-16.
@@ -19,26 +19,26 @@ constexpr double round_off = 64 * eps;
 
 /// The relative difference that rounding leaves between two rows of B that are equal in exact
 /// arithmetic. An entry, a gradient on a triangle, is a difference of coordinates (1 rounding)
-/// times the reciprocal of an area (two products of differences and their difference: 4, and 1 for
-/// the reciprocal). That makes 7 with the last product, each of eps / 2. Two such rows differ by 7
-/// eps, and the rounding of u to doubles makes it 8. A row whose residual is within this tolerance
-/// counts as satisfied, and two rows within it count as one. Sums and products with u add nothing,
-/// because they are exact (residual.hpp).
+/// times the reciprocal (1) of an area. The area is a difference of two products of differences (4
+/// roundings). With the last product these are 7 roundings, each of eps / 2. Two such rows differ
+/// by 7 eps, and the rounding of u to doubles makes it 8. A row whose residual is within this
+/// tolerance counts as satisfied, and two rows within it count as one. Sums and products with u add
+/// nothing, because they are exact (residual.hpp).
 constexpr double row_tolerance = 8 * eps;
 
 /// The number of rows of B up to which constraint_defect (forward_error.hpp) looks for nearly
-/// dependent ones; it also asks for at most ten times as many unknowns. Its dense QR of 200 x 2,200
-/// (with one column per row for its compliance) takes some 2 200^2 2,200 products, tens of
-/// milliseconds.
+/// dependent ones. It also requires that the problem has at most 10 max_rows_for_qr unknowns. Its
+/// dense QR of 200 x 2,200 (with one column per row for its compliance) takes some 2 200^2 2,200
+/// products, tens of milliseconds.
 constexpr int max_rows_for_qr = 200;
 
-/// The default for all corrections together: 15 with each of four penalties, and the rest with the
-/// fifth. The fifth penalty is the smallest one, about round_off, which four divisions by 64 reach
-/// from 6e-8 (choose_penalty.hpp).
+/// The default for the number of all corrections together: 15 with each of four penalties, and the
+/// rest with the fifth. The fifth penalty is the smallest one, about round_off, which four
+/// divisions by 64 reach from 6e-8 (choose_penalty.hpp).
 constexpr int max_corrections = 100;
 
-/// The corrections with one penalty. A new factor costs as much as 10 to 20 corrections (measured
-/// at 1/h = 128).
+/// The number of corrections with one penalty. A new factor costs as much as 10 to 20 corrections
+/// (measured at 1/h = 128).
 constexpr int corrections_per_penalty = 15;
 
 /// The factor by which the next penalty is smaller, and by which it is larger where K has no
@@ -52,9 +52,9 @@ constexpr double max_contraction = 1 - 1.0 / max_corrections;
 
 /// The smallest penalty of rows of B with fixed compliances, relative to that of the parametric
 /// rows (PenalisedCholesky::penalties). Where three stiffnesses lie far apart, two of them in such
-/// rows, a correction contracts like penalty / (penalty + compliance of the softer row). A smaller
-/// penalty lets the factor hold more of these compliances as they are. 1e-3 of the default 6e-8
-/// leaves the factor five digits of A1.
+/// rows, a correction contracts like penalty / (penalty + compliance of the softer row). With a
+/// smaller penalty more rows have their own compliance as penalty, and these converge at once. 1e-3
+/// of the default 6e-8 leaves the factor five digits of A1.
 constexpr double fixed_row_penalty_ratio = 1e-3;
 
 /// The stiffness of the equality row that couples c . u to its slack variable w, relative to that

@@ -43,20 +43,22 @@ namespace antilock {
 ///     |lambda_i| / force_i                      between two bounds
 ///     (g_i - |lambda_i|) / max(force_i, g_i)    at a bound with a force limit
 ///
-/// complementarity is the largest over the bounds of the following, in which gap_i is the quotient
-/// of min_gap, and lambda_i counts on the side to which it pushes alone:
+/// complementarity is the largest over the bounds of
 ///
-///     |lambda_i gap_i| / force_i,   and beyond a bound with a force limit in its place
-///     |(g_i - |lambda_i|) gap_i| / max(force_i, g_i)
+///     |(g_i - |lambda_i|) gap_i| / max(force_i, g_i)    beyond a bound with a force limit
+///     |lambda_i gap_i| / force_i                        otherwise
+///
+/// gap_i is the quotient of min_gap. Between two bounds a positive lambda_i counts only at the
+/// lower bound, and a negative one only at the upper bound.
 ///
 /// kkt.cpp has the reasons for the scales. A zero solution of a zero load has a report of
 /// zeros. Throws Error for a malformed problem and for sizes that do not fit.
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
 
 /// Levels of the worst violation of a report. A solution above `warn` carries a warning. No solver
-/// returns one above `fail`, or above 10 times its own tolerance where that is more
-/// (CorrectionOptions::kkt_fail); naive_summed_solve alone checks nothing. The levels are promises,
-/// and the arithmetic does better: warn is ten times the default tolerance of the corrections.
+/// returns a solution above max(fail, 10 tolerance) (CorrectionOptions::kkt_fail), except for
+/// naive_summed_solve, which checks nothing. Solutions are normally more accurate than both levels:
+/// warn is ten times the default tolerance of the corrections.
 struct KktTolerances {
   double warn = 1e-9;
   double fail = 1e-6;
@@ -71,8 +73,9 @@ void check_kkt(const VariationalInequality& problem, Solution& solution, const K
 /// Does the second half of check_kkt: compares solution.kkt with the levels.
 void apply_tolerances(Solution& solution, const KktTolerances& levels = {});
 
-/// The parts of kkt_report. For a problem on subdomains the vectors are summed over them; strain,
-/// residual and complementarity are maxima, min_gap and min_pressure minima.
+/// The parts of kkt_report. For a problem on subdomains the vectors are summed over them, and
+/// strain is the maximum. Of the members of Kkt, residual and complementarity are then maxima,
+/// min_gap and min_pressure minima.
 struct KktParts {
   Eigen::VectorXd r1;         ///< N
   Eigen::VectorXd terms;      ///< N, t
@@ -88,8 +91,8 @@ struct KktParts {
 KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p);
 
 /// Adds the residuals of r1 and r2 to the report. `fixed` (N) is not 0 at prescribed unknowns. `u`,
-/// `force` and `with_reactions` are U, F_0 and F, for a problem on subdomains those of the whole.
-/// Returns min(f_k, F_0) of all unknowns (N), infinite at prescribed ones.
+/// `force` and `with_reactions` are U, F_0 and F, on subdomains those of the whole problem. Returns
+/// min(f_k, F_0) of all unknowns (N), infinite at prescribed ones.
 Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed, double u, double force,
                               double with_reactions);
 /// Adds the gap, pressure and complementarity of bound i to the report. `value` is s_i, `reach` is

@@ -12,8 +12,8 @@ class SlackForm;
 /// How the linear system of a correction is reduced for the contact iteration. K is the penalised
 /// matrix on its n_free unknowns, and n_bounds of them are bounded.
 /// - schur_complement: the contact unknowns come last in the factor of K, and the contact iteration
-///   works on their dense n_bounds x n_bounds Schur complement (static condensation). Uzawa's method
-///   needs it.
+///   works on their dense n_bounds x n_bounds Schur complement (static condensation). Uzawa's
+///   method needs it.
 /// - sparse: each contact iteration factors K on the unknowns that are not active. Its cost is that
 ///   of a sparse factor, whatever n_bounds is.
 /// - automatic: sparse where n_bounds > 10 sqrt(n_free), else schur_complement.
@@ -56,8 +56,8 @@ class PenalisedCholesky {
   /// Returns the smallest pivot of K: an upper bound, and a heuristic estimate, of its smallest
   /// eigenvalue (sparse_cholesky.hpp).
   double smallest_pivot() const { return factor_.cholesky().smallest_pivot(); }
-  /// Returns K^-1 r (n_free). With sparse, it is K^-1 r on the unknowns that are not constrained
-  /// and 0 on the others.
+  /// Returns K^-1 r (n_free). With sparse, it solves K restricted to the unknowns that are not
+  /// constrained, and is 0 on the others.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_.solve(r); }
 
   /// Returns the factor whose unknowns can be constrained, or nullptr with schur_complement.

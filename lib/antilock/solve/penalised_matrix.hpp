@@ -41,9 +41,9 @@ inline Eigen::VectorXd row_penalties(const VariationalInequality& problem, doubl
 }
 
 /// Returns the upper triangle of K = A1 + B' M diag(penalty)^-1 B on the free unknowns (n_free x
-/// n_free, in the order of `ordering`), for R penalties. K is for the factorisation alone: where
-/// delta^-1 B' M B dominates A1, the sum has lost digits of A1 by cancellation, and residuals with
-/// it would be wrong (tutorial 18).
+/// n_free, in the order of `ordering`), for R penalties. K is used only for the factorisation:
+/// where delta^-1 B' M B dominates A1, the sum has lost digits of A1 by cancellation, and residuals
+/// with it would be wrong (tutorial 18).
 inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const DofOrdering& ordering,
                                      const Eigen::VectorXd& penalty) {
   const int size = static_cast<int>(ordering.dof.size());
@@ -53,8 +53,9 @@ inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const
   std::vector<int> touched;
   std::vector<double> sum(size, 0.0);
   std::vector<char> seen(size, 0);
-  // Gustavson's algorithm: one column of the sum at a time, in a dense accumulator. (From triplets
-  // it takes ten times as long at 1/h = 256, an eighth of a solution: memory.)
+  // Gustavson's algorithm: one column of the sum at a time, in a dense accumulator. (Assembly from
+  // triplets takes ten times as long at 1/h = 256, an eighth of the time of a solution, because it
+  // moves more memory.)
   for (int column = 0; column < size; ++column) {
     const int j = ordering.dof[column];
     const auto add = [&](Eigen::Index dof, double value) {

@@ -8,11 +8,13 @@
 
 namespace antilock {
 
-/// How well the KKT conditions of the inequality hold. All numbers are relative; kkt.hpp defines
-/// them and their scales.
+/// Numbers that measure how well a solution satisfies the KKT conditions of the inequality. All are
+/// relative. kkt.hpp defines them and their scales.
 struct Kkt {
-  double min_gap = 0;          ///< the smallest distance from a bound; >= 0 up to round-off
-  double min_pressure = 0;     ///< the smallest force along its bound's push; >= 0 up to round-off
+  double min_gap = 0;  ///< the smallest distance from a bound; >= 0 up to round-off
+  /// The smallest force, positive in the direction in which its bound can push; >= 0 up to
+  /// round-off.
+  double min_pressure = 0;
   double complementarity = 0;  ///< the largest |force times distance| of a bound
   /// The larger one of the residuals of A1 u + B' M p = L + E' lambda and of compliance p = B u.
   double residual = 0;
@@ -43,18 +45,18 @@ struct Solution {
   Eigen::VectorXd lambda;
   BoundStatuses status;      ///< C; empty where the solver has no statuses
   std::vector<bool> active;  ///< C: in contact with either bound, is_active(status[i])
-  /// The largest |u| of the delta-penalised problem, delta in place of a smaller compliance: the
-  /// size of u where it does not lock. 0 where it is not known.
+  /// The largest |u| of the problem with the penalty delta in place of a smaller compliance. It
+  /// serves as the size that u has without locking. 0 where it is not known.
   double penalised_max_u = 0;
   /// The estimated forward error of u: the largest |u - exact u| over the largest |u|, where exact
   /// u solves the discrete problem. It is the sum of three terms: the corrections to come, with the
   /// measured contraction; the residual of B u = compliance p; and eps / 2 for the rounding of u to
-  /// doubles. 0: there is no estimate, or nothing was left to correct. It is for the contact set
-  /// that was found, and does not contain the error that Uzawa's steps leave.
+  /// doubles. 0: there is no estimate, or nothing was left to correct. It assumes that the contact
+  /// set is right, and does not contain the error that Uzawa's steps leave.
   ///
   /// It is an estimate. Of 24,000 random problems one had 15 times the estimated error, and all
   /// others at most 10 times; the worst known case has 24 times. It exceeds the tolerance where u
-  /// has locked to less than 2e-6 of penalised_max_u, because such a u is at the level of the
+  /// has locked to less than 2e-6 of penalised_max_u, because 1e-10 of such a u is below the
   /// round-off of the unlocked one. It is infinite where u is 0 and something is left to correct.
   double error = 0;
   Kkt kkt;

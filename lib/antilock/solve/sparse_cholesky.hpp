@@ -20,9 +20,9 @@ class SparseCholesky {
   virtual void analyse(const SparseMatrix& k, int trailing_count) = 0;
 
   /// Computes L for a matrix of the analysed pattern. Returns nothing where K is positive definite.
-  /// Else it returns the row of K of a pivot l_ii^2 that is not positive, or at most
-  /// defaults::round_off times its diagonal entry k_ii, which is round-off. Throws NotConverged
-  /// where memory runs out.
+  /// Otherwise it returns the row of K of a pivot l_ii^2 that is not positive, or at most
+  /// defaults::round_off times the diagonal entry k_ii, because such a pivot is round-off. Throws
+  /// NotConverged where memory runs out.
   virtual std::optional<int> factorise(const SparseMatrix& k) = 0;
 
   /// Returns the smallest pivot, min_i l_ii^2, and infinity for a K without rows. It is an upper
@@ -40,22 +40,22 @@ class SparseCholesky {
 /// A function that makes an empty factor.
 using CholeskyMaker = std::unique_ptr<SparseCholesky> (*)();
 
-/// Returns CHOLMOD's supernodal factor, which works on a BLAS. Where rows are to stay last, CAMD
-/// orders the others (a minimum degree ordering under that constraint); else CHOLMOD chooses
-/// between AMD and METIS. A browser has neither CHOLMOD nor a BLAS: this is Eigen's factor there
-/// (tutorials/book/wasm/host), and results agree up to round-off.
+/// Returns CHOLMOD's supernodal factor, which works on a BLAS. Where rows must stay last, CAMD
+/// orders the others (a minimum degree ordering under that constraint). Otherwise CHOLMOD chooses
+/// between AMD and METIS. A browser has neither CHOLMOD nor a BLAS. There this function returns
+/// Eigen's factor (tutorials/book/wasm/host), and results agree up to round-off.
 std::unique_ptr<SparseCholesky> default_cholesky();
 
 /// A symmetric positive definite K (n_free x n_free) and its factor on the unknowns that are not
-/// constrained, that is, whose values are not prescribed. Rows and columns of constrained unknowns
-/// keep their diagonal entries alone in the factored matrix. The pattern is analysed once, so that
-/// another constrained set costs one numeric factorisation.
+/// constrained, that is, whose values are not prescribed. In the factored matrix the rows and
+/// columns of constrained unknowns keep only their diagonal entries. The pattern is analysed once,
+/// so that another constrained set costs one numeric factorisation.
 class ConstrainedCholesky {
  public:
   explicit ConstrainedCholesky(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}
 
   /// Takes the upper triangle of K and factors it with no unknown constrained. A later K must have
-  /// the same pattern; `trailing_count` counts in the first call alone. Returns and throws what
+  /// the same pattern; `trailing_count` is used in the first call only. Returns and throws what
   /// SparseCholesky does.
   std::optional<int> factorise(SparseMatrix&& k, int trailing_count = 0) {
     k_.swap(k);  // Eigen 3.4 copies a sparse matrix that is moved

@@ -22,7 +22,7 @@ SummedSystem summed_system(const VariationalInequality& problem, const std::stri
 
 enum class SummedFactor { cholesky, lu };  ///< CHOLMOD; UMFPACK
 
-/// Why the naive solver ended. No value implies that the solution is right.
+/// The reason why the naive solver ended. No value implies that the solution is right.
 enum class ConvergedReason {
   converged,            ///< the contact set is that of the iteration before
   cycled,               ///< an earlier contact set came back, and the iteration would not end
@@ -34,7 +34,7 @@ enum class ConvergedReason {
 std::string to_string(ConvergedReason reason);
 
 /// A solution without any guarantee: solution.kkt is its KKT report, which was compared with no
-/// tolerance. p is compliance^-1 B u, and where u has locked, B u has lost the digits of p.
+/// tolerance. p is compliance^-1 B u. Where u has locked, B u has lost the digits of p.
 struct NaiveResult {
   Solution solution;
   ConvergedReason reason = ConvergedReason::converged;

@@ -14,24 +14,25 @@ namespace antilock {
 /// certificate/balanced_tolerance.hpp computes it. v is the iterate projected onto the admissible
 /// set, J the energy with the penalty delta in place of a smaller compliance.
 struct AlgebraicTolerance {
-  double energy = 0;    ///< on J(v) - J(u_h)
-  double relative = 0;  ///< on |v - u_h|_a / |u_h|_a, in the energy norm of J
+  double energy = 0;    ///< the accepted J(v) - J(u_h)
+  double relative = 0;  ///< the accepted |v - u_h|_a / |u_h|_a, in the energy norm of J
 };
 
 struct UzawaOptions {
-  /// On the change of lambda in one step over rho, a length, relative to the largest |u|.
+  /// The tolerance for |change of lambda| / rho in one step, which is a length, relative to the
+  /// largest |u|.
   double tolerance = 1e-10;
   int max_iterations = 1'000'000;  ///< steps of all corrections together; after these: NotConverged
-  /// Wall clock; after these: NotConverged.
+  /// Wall seconds after which NotConverged is thrown.
   double max_seconds = std::numeric_limits<double>::infinity();
-  /// The step length rho. Empty: 2 / (largest + smallest eigenvalue) of the flexibility matrix S^-1
-  /// of the contact unknowns (not `compliance`), S their Schur complement. Where S^-1 scaled to a
-  /// unit diagonal is better conditioned, each unknown has a step length of its own: that of the
-  /// scaled matrix over its diagonal entry of S^-1. Lanczos iteration computes the eigenvalues.
+  /// The step length rho. Empty: 2 / (largest + smallest eigenvalue) of the flexibility matrix
+  /// S^-1, where S is the Schur complement of the contact unknowns. Where S^-1 scaled to a unit
+  /// diagonal is better conditioned, unknown i has the step length of the scaled matrix divided by
+  /// (S^-1)_ii. Lanczos iteration computes the eigenvalues.
   std::optional<double> step_length;
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <=
-  /// stop_at->energy for the problem of a correction. That is the problem itself where compliance
-  /// >= delta, else the one with delta in place of the compliance.
+  /// stop_at->energy for the problem of a correction. This is the problem itself where compliance
+  /// >= delta, and otherwise the problem with delta in place of the compliance.
   std::optional<AlgebraicTolerance> stop_at;
   ProgressHook progress = {};  ///< called every 32 steps and after each correction but the last
 };
@@ -42,12 +43,12 @@ struct UzawaOptions {
 ///
 ///     u solves A u = L + lambda,   lambda <- max(0, lambda - rho (u - lower))   on Gamma_C
 ///
-/// With upper bounds min(0, lambda - rho (u - upper)) is added, and |lambda| is cut to force_limit.
-/// The problem is condensed on the C bounds by a Cholesky factor, so that a step costs one product
-/// with the dense C x C flexibility matrix. The stiff form is treated by the iterated penalty
-/// method, and constraints in slack form, as in active_set. Solution::history has one entry per
-/// step. Throws Error for a malformed problem or option, and NotConverged, with the last relative
-/// step, in place of a solution that has not converged.
+/// Here A = A1 + compliance^-1 B' M B. With upper bounds min(0, lambda - rho (u - upper)) is added,
+/// and |lambda| is cut to force_limit. The problem is condensed on the C bounds by a Cholesky
+/// factor, so that a step costs one product with the dense C x C flexibility matrix. The stiff form
+/// is treated by the iterated penalty method, and constraints in slack form, as in active_set.
+/// Solution::history has one entry per step. Throws Error for a malformed problem or option, and
+/// NotConverged, with the last relative step, in place of a solution that has not converged.
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options = {});
 /// Does the same with a factor that exists already, made with ContactReduction::schur_complement.
 /// Throws Error for another one.
