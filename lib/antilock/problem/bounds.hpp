@@ -6,9 +6,9 @@
 
 namespace antilock {
 
-/// A bound of a file or of a user's array with |bound| >= infinite_bound means that there is none:
-/// products of larger numbers may leave the range of double. Smaller numbers stay finite bounds,
-/// also 1e20, 1e30 and 3.4e38 (the largest float), which some programs write for infinity.
+/// A bound of a file or of a user's array with |bound| >= infinite_bound means that there is none,
+/// because products of such numbers may leave the range of double. Smaller numbers stay finite
+/// bounds, also 1e20, 1e30 and 3.4e38 (the largest float), which some programs write for infinity.
 constexpr double infinite_bound = 1e40;
 
 /// Returns the bound, or infinity of the same sign where |bound| >= infinite_bound.
@@ -43,14 +43,14 @@ void clear_bounds(VariationalInequality& problem);
 /// for another number of marks, and for bounds other than lower bounds on unknowns.
 VariationalInequality equality_constrained(VariationalInequality problem, const std::vector<bool>& active);
 
-/// Throws Error, which begins with `who`, where the problem has bounds on constraints.
+/// Throws Error, whose message begins with `who`, where the problem has bounds on constraints.
 void require_bounds_on_unknowns(const VariationalInequality& problem, const std::string& who);
 
-/// Throws Error, which begins with `who`, where the problem has force limits.
+/// Throws Error, whose message begins with `who`, where the problem has force limits.
 void require_hard_bounds(const VariationalInequality& problem, const std::string& who);
 
-/// Throws Error, which begins with `who`, where the problem has upper bounds, force limits, or
-/// bounds on constraints.
+/// Throws Error, whose message begins with `who`, where the problem has upper bounds, force limits,
+/// or bounds on constraints.
 void require_lower_bounds(const VariationalInequality& problem, const std::string& who);
 
 }  // namespace antilock

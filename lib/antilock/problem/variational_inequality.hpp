@@ -24,10 +24,10 @@ namespace antilock {
 ///
 /// The stiff form a0(u, v) = (B u, M B v), M diagonal, is kept as its factors, because the sum A1 +
 /// compliance^-1 B' M B loses the digits of A1 to round-off as the compliance falls. A form with a
-/// symmetric block of M per cell fits as well: with block = G G', the rows of the cell are G' B and
-/// M is 1. The choice of units is free: u stays the same where A1 and L are multiplied by s > 0 and
-/// the compliance by 1 / s, and also where M and the compliance are multiplied by s. Therefore a
-/// compliance above 1 is accepted.
+/// symmetric positive semidefinite block of M per cell fits as well: with block = G G', the rows of
+/// the cell are G' B and M is 1. The choice of units is free: u stays the same where A1 and L are
+/// multiplied by s > 0 and the compliance by 1 / s, and also where M and the compliance are
+/// multiplied by s. Therefore a compliance above 1 is accepted.
 ///
 /// A bound with a finite force limit g is a soft constraint and does not restrict K_h. It carries a
 /// force of at most g and yields once the force would exceed g. With s_i the bounded value (an
@@ -36,8 +36,8 @@ namespace antilock {
 ///     j(v) = sum_i g_i dist(s_i, [lower_i, upper_i]),   so that |lambda_i| <= g_i,
 ///
 /// and lambda_i = g_i where s_i < lower_i, lambda_i = -g_i where s_i > upper_i. Tresca's friction
-/// is the case lower = upper = 0 of a tangential displacement: it sticks where |lambda| < g, and
-/// where it slips, it slips against lambda and |lambda| = g.
+/// is the case lower = upper = 0 of a tangential displacement: the body sticks where |lambda| < g.
+/// Where it slips, lambda opposes the motion and |lambda| = g.
 struct VariationalInequality {
   SparseMatrix a1;    ///< N x N, symmetric; A1 + B' M B is positive definite on the free unknowns
   RowMatrix b;        ///< R x N; R = 0 where nothing is stiff
@@ -52,7 +52,7 @@ struct VariationalInequality {
   /// a good one where neighbours in this list are neighbours on the boundary.
   std::vector<int> contact;
   Eigen::VectorXd lower;  ///< C; -gap for an obstacle below; -infinity: no lower bound
-  /// C, or empty: no upper bounds. +infinity: none here; = lower: an equation.
+  /// C, or empty: no upper bounds. +infinity: bound i has none; = lower: an equation.
   Eigen::VectorXd upper = {};
   /// C, or empty: no limits. The largest |lambda|, 0 or more; +infinity: a hard bound.
   Eigen::VectorXd force_limit = {};
@@ -70,17 +70,17 @@ struct VariationalInequality {
   int size() const { return static_cast<int>(load.size()); }
   int free_count() const { return size() - static_cast<int>(dirichlet_dofs.size()); }
   Eigen::Index parametric_row_count() const { return b.rows() - fixed_compliances.size(); }
-  /// R: the compliance of each row of B.
+  /// Returns the compliance of each row of B (R).
   Eigen::VectorXd compliances() const {
     Eigen::VectorXd rows = Eigen::VectorXd::Constant(b.rows(), compliance);
     rows.tail(fixed_compliances.size()) = fixed_compliances;
     return rows;
   }
-  /// C.
+  /// Returns C.
   int bound_count() const { return static_cast<int>(contact.size()) + static_cast<int>(constraints.rows()); }
 };
 
-/// Throws Error that names the first requirement which does not hold: sizes that fit, finite
+/// Throws an Error that names the first requirement which does not hold: sizes that fit, finite
 /// entries, an a1 that is symmetric up to 1e-12 of its largest entry, M > 0, a compliance that is
 /// finite and at least 0, indices that are in range and named once, one free unknown or more, and
 /// the requirements of check_bounds.
