@@ -13,7 +13,7 @@ namespace antilock {
 /// shapes, so that angles stay bounded below. Every triangle of `triangles` (T marks) is divided
 /// into four, every edge of `edges` (E marks, or empty for none) is halved, and so is every further
 /// edge that a conforming mesh needs. Regions and tags are inherited, vertices keep their numbers.
-/// It works on any mesh: call longest_edge_first once, on the first mesh. Throws Error for another
+/// The first mesh may be any mesh, after one call of longest_edge_first. Throws Error for another
 /// number of marks.
 TriangleMesh bisected(const TriangleMesh& mesh, const std::vector<bool>& triangles,
                       const std::vector<bool>& edges = {});

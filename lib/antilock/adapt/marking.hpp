@@ -7,14 +7,14 @@
 
 namespace antilock {
 
-/// The refinement strategy. bisect: all triangles may be bisected. extrude: those of the body
-/// alone, and the layer is extruded anew below it in columns. A feature of a thin layer crosses the
-/// whole layer, so that columns are the cheaper mesh for epsilon <= 0.1.
+/// The refinement strategy. bisect: all triangles may be bisected. extrude: only triangles of the
+/// body are bisected, and the layer is extruded again below the body, in columns. A feature of a
+/// thin layer crosses the whole layer, so that columns are the cheaper mesh for epsilon <= 0.1.
 enum class RefinementStrategy { bisect, extrude };
 
 /// Parameters of Doerfler's marking. The largest indicators that make up the fraction `theta` of
 /// the sum are marked, but at least the fraction `min_fraction` of their number (without it, an
-/// obstacle of one needle takes twenty levels) and at most `max_marked` (0: no limit).
+/// obstacle with one narrow peak takes twenty levels) and at most `max_marked` (0: no limit).
 struct Marking {
   double theta = 0.5, min_fraction = 0.05;
   int max_marked = 0;
@@ -26,7 +26,7 @@ struct Marking {
 /// Returns true for the triangles to refine (W. Doerfler, SIAM J. Numer. Anal. 33, 1996).
 std::vector<bool> dorfler_mark(const Eigen::VectorXd& indicator, const Marking& marking = {});
 
-/// A mesh and, for RefinementStrategy::extrude, the mesh of its body alone.
+/// A mesh and, for RefinementStrategy::extrude, the mesh of only its body.
 struct AdaptiveMesh {
   TriangleMesh mesh, body;
   int marks = 0;  ///< triangles and columns that were marked in the last refinement
@@ -39,9 +39,9 @@ AdaptiveMesh refine_marked(const AdaptiveMesh& last, RefinementStrategy strategy
 
 /// Refines the body's triangles where the load f varies between the points of the quadrature rule.
 /// On each triangle T the integrals of f^2 and of f |f| by up to 2,080 samples (a million in all)
-/// are compared with those by the rule. T counts its quadrature error if it is above 10 % of int_T
-/// f^2, and 0 otherwise. Refinement ends when every triangle counts less than a thousandth of the
-/// whole integral of f^2, and all together less than a tenth. Returns an empty text, or a warning
+/// are compared with those by the rule. The indicator of T is its quadrature error if this is above
+/// 10 % of int_T f^2, and 0 otherwise. Refinement ends when every indicator is at most a thousandth
+/// of the whole integral of f^2, and their sum at most a tenth. Returns an empty text, or a warning
 /// where `most_triangles` or 16 rounds do not suffice.
 std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangles);
 

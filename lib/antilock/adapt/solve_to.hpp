@@ -16,7 +16,7 @@ namespace antilock {
 /// `relative`.
 struct AccuracyGoal {
   double relative;  ///< in (0, 1)
-  /// The quantity whose error counts. The midpoint of the two fluxes (Quantity::stress) needs a
+  /// The quantity whose error is bounded. The midpoint of the two fluxes (Quantity::stress) needs a
   /// quarter of the unknowns.
   Quantity of = Quantity::displacement;
   double most_unknowns = 2e6;  ///< of Crouzeix-Raviart on the last mesh
@@ -25,8 +25,9 @@ struct AccuracyGoal {
   std::optional<RefinementStrategy> strategy = {};
   /// An upper limit for the relative algebraic error of a solve. The certificate may need less.
   double tolerance = 1;
-  const Element* element = &crouzeix_raviart();  ///< or P1, P2, for the displacement alone
-  /// Called between the steps of a level and in its solves. It stops the refinement by false.
+  const Element* element = &crouzeix_raviart();  ///< or P1, P2, only for the displacement
+  /// Called between the steps of a level and in its solves. If it returns false, the refinement
+  /// stops.
   ProgressHook follow = {};
 };
 
@@ -34,32 +35,36 @@ struct AccuracyGoal {
 struct RefinementLevel {
   int unknowns = 0;
   double bound = 0, relative = 0;  ///< guaranteed, absolute and relative
-  double seconds = 0;              ///< wall clock since the start
+  double seconds = 0;              ///< wall seconds since the start
   /// Predictions for the goal, from the third level on; 0 before.
   double predicted_unknowns = 0, predicted_seconds = 0;
 };
 
 /// The solution of the last level and its certificate.
 struct CertifiedSolution {
-  Result result;  ///< of the element asked for, on the last mesh, with the locking report; its warning is that of the
-                  ///< report and what the certificate cannot see of the load
-  Solution companion;  ///< the displacement that is certified: u at the vertices, p per layer triangle; where the layer
-                       ///< is bisected at small epsilon it lives on columns there, u interpolates it and p is empty
+  /// The solution with the requested element on the last mesh, with the locking report. Its warning
+  /// contains that of the report, and names a part of the load that the sampling of the certificate
+  /// may miss.
+  Result result;
+  /// The displacement that is certified: u at the vertices, p per layer triangle. Where the layer
+  /// is bisected at small epsilon, this displacement has columns of its own in the layer. Then u is
+  /// its interpolant and p is empty.
+  Solution companion;
   Certificate certificate;
   std::vector<RefinementLevel> history;
 };
 
 /// Refines adaptively until the certificate guarantees the accuracy. Each solve goes on until its
 /// algebraic residual is at most a tenth of the constitutive error (Certificate). `first` is the
-/// first mesh, of any body; where the layer is extruded, a mesh of the body alone suffices. The
-/// Ventcel layer is solved as the scaled one with epsilon = 0. Refined triangles inherit the shapes
-/// of the first mesh: gmsh's at 1/h = 8 need 6 % more unknowns than a fine mesh of gmsh's own,
-/// those at 1/h = 16 need 1 % more. `progress` is called after every level.
+/// first mesh, of any body. Where the layer is extruded, a mesh of only the body suffices. The
+/// Ventcel layer is solved as the scaled one with epsilon = 0. Refined triangles have the shapes of
+/// the first mesh. From gmsh's mesh with 1/h = 8 they need 6 % more unknowns than a fine mesh of
+/// gmsh, and from that with 1/h = 16 they need 1 % more. `progress` is called after every level.
 ///
 /// A P1 result is the conforming companion itself, which is in K between the vertices as well;
-/// Crouzeix-Raviart on the same mesh gives the flux. The bound of a P2 result is that of the P1
-/// companion plus the distance of the two (certified_distance). Where P1 or P2 locks, h must fall
-/// to about epsilon before the error does. Where a prediction exceeds the limit of unknowns,
+/// Crouzeix-Raviart on the same mesh gives the flux. The bound of a P2 result is the bound of the
+/// P1 companion plus the distance between both (certified_distance). Where P1 or P2 locks, h must
+/// fall to about epsilon before the error does. Where a prediction exceeds the limit of unknowns,
 /// refinement ends at once, and the message names the reason.
 ///
 /// Throws Error for an accuracy outside (0, 1), another element, a limit below the unknowns of the
