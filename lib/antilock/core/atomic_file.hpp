@@ -7,26 +7,31 @@
 
 namespace antilock {
 
-// Files on their way are in a draft: a folder `.draft-` and six random signs beside their goal, from which they move to
-// their places by renaming, within one file system. A draft is gone with everything in it whatever ended the writing:
-// an error, or one of the signals SIGINT, SIGTERM and SIGHUP. Such a signal waits (unless the program handles it
-// itself) until the last draft is gone. Only SIGKILL or a power cut leaves a draft behind, which no later process
-// touches.
+// While files are written, they are in a draft: a folder beside their destination, named `.draft-`
+// and six random characters. From there they move to their destination by renaming, within one file
+// system. If an error or one of the signals SIGINT, SIGTERM and SIGHUP ends the writing, the draft
+// is removed with everything in it. The program ends by such a signal after the last draft has been
+// removed, unless it handles the signal itself. Only SIGKILL or a power cut leaves a draft behind,
+// which no later process changes.
 
-/// Writes a file whole or not at all: `write` fills a stream, which then takes the place of `path` in one rename.
-/// Folders are made. Numbers are written with 17 significant digits. Throws Error where the folder cannot be written.
+/// Writes a whole file or none: `write` fills a stream, whose file then takes the place of `path`
+/// in one rename. Missing folders are made. Numbers are written with 17 significant digits. Throws
+/// Error where the folder cannot be written.
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
-/// Throws Error where writing `path` would replace one of the inputs, under whatever name. An empty path names no file.
+/// Throws Error where writing `path` would replace one of the inputs, under any name. An empty path
+/// names no file.
 void check_not_an_input(const std::filesystem::path& path, const std::vector<std::filesystem::path>& inputs);
 
-/// Throws Error where `folder` could not be made or written: better now than after minutes of work. Touches nothing.
+/// Throws Error where `folder` could not be made or written. It is called before a long
+/// computation, so that no work is lost. It changes nothing.
 void check_folder(const std::filesystem::path& folder);
 
-/// Writes the files of one result, all or none: `write` fills a draft, whose files then take their places in `folder`,
-/// which is made if absent. They do so under a lock: two processes with one folder do not mix theirs, as far as its
-/// file system knows locks (NFS may not). Files of `known` names that an earlier result left there, and this one does
-/// not have, go. Throws Error, and leaves nothing behind, where anything fails before the first file is in place.
+/// Writes the files of one result, all or none: `write` fills a draft, whose files then take their
+/// places in `folder`, which is made if absent. A lock keeps two processes from mixing their files
+/// in one folder, if its file system has locks (NFS may not). Files of an earlier result are
+/// removed if their names are in `known` and the new result does not have them. Throws Error, and
+/// leaves nothing behind, where anything fails before the first file is in place.
 void write_folder(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& write,
                   const std::vector<std::string>& known = {});
 

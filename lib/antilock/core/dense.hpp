@@ -5,14 +5,16 @@
 
 namespace antilock {
 
-/// Eigen's decompositions of dense matrices behind plain functions. Each one costs seconds of compilation where it is
-/// used; here all of them are compiled once.
+/// These functions call Eigen's decompositions of dense matrices. Each decomposition takes seconds
+/// of compilation in every file that uses it. Here all of them are compiled once.
 
-/// S = L L', the Cholesky factor of a symmetric positive definite matrix (n x n), of which the lower triangle is read.
+/// The Cholesky factor L of a symmetric positive definite matrix S = L L' (n x n), whose lower
+/// triangle is read.
 class Cholesky {
  public:
   explicit Cholesky(Eigen::MatrixXd s);
-  /// False where a pivot was not positive or not finite; every solution is meaningless then.
+  /// Returns false where a pivot was not positive or not finite. Then every solution is
+  /// meaningless.
   bool positive_definite() const { return positive_definite_; }
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;    ///< S^-1 right (n)
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;    ///< S^-1 right (n x any)
@@ -24,23 +26,27 @@ class Cholesky {
   bool positive_definite_;
 };
 
-/// Eigenvalues of a symmetric matrix, smallest first, and their eigenvectors of length 1 (one per column).
+/// Eigenvalues of a symmetric matrix, smallest first, and their eigenvectors of length 1 (one per
+/// column).
 struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
 };
 
-/// Of a symmetric matrix (n x n), of which the lower triangle is read.
+/// Returns the eigenvalues and eigenvectors of a symmetric matrix (n x n), whose lower triangle is
+/// read.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
-/// The eigenvalues alone, smallest first (n).
+/// Returns only the eigenvalues, smallest first (n).
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
-/// The x of A v = x B v, smallest first (n): A symmetric, B symmetric positive definite, their lower triangles read.
+/// Returns the eigenvalues x of A v = x B v, smallest first (n). A is symmetric, B symmetric
+/// positive definite, and their lower triangles are read.
 Eigen::VectorXd generalised_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// The shortest x that minimises |matrix x - right|, by the complete orthogonal decomposition: pivots below `threshold`
-/// times the largest one count as zero.
+/// Returns the shortest x that minimises |matrix x - right|, by the complete orthogonal
+/// decomposition. Pivots below `threshold` times the largest one count as zero.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right, double threshold);
-/// Moore and Penrose's inverse (n x m) of a matrix (m x n), by the same decomposition with Eigen's threshold.
+/// Returns the inverse of Moore and Penrose (n x m) of a matrix (m x n), by the same decomposition
+/// with Eigen's threshold.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
 
 }  // namespace antilock

@@ -6,8 +6,9 @@
 
 namespace antilock {
 
-/// x = high + low, |low| <= eps |high| / 2: numbers of 106 bits, by operations on doubles whose own rounding error is
-/// found exactly. T. J. Dekker, Numer. Math. 18 (1971); N. J. Higham, Accuracy and Stability, section 27.9.
+/// A number x = high + low of 106 bits, |low| <= eps |high| / 2. Its operations use doubles, and
+/// sums and products of two doubles are computed with their exact rounding errors. T. J. Dekker,
+/// Numer. Math. 18 (1971); N. J. Higham, Accuracy and Stability, section 27.9.
 struct DoubleDouble {
   double high = 0, low = 0;
 };
@@ -47,7 +48,8 @@ struct DoubleDoubleVector {
     for (Eigen::Index i = 0; i < size(); ++i) add(i, {x(i), 0});
     return *this;
   }
-  /// Rounded once, however close the two are.
+  /// Returns the difference, rounded once: there is no cancellation error even if both are nearly
+  /// equal.
   Eigen::VectorXd operator-(const DoubleDoubleVector& other) const {
     Eigen::VectorXd difference(size());
     for (Eigen::Index i = 0; i < size(); ++i)

@@ -1,11 +1,12 @@
 #pragma once
 #include <Eigen/Core>
 
-// Vectors and matrices go from this library to its user and back: one side allocates them, the other frees them, and
-// fast code relies on where they lie. Eigen chooses both by the instruction set that a file is compiled for, so that
-// -march=native on one side alone ends in a crash. Here they are the same for all: memory of the system's malloc,
-// aligned to 16 bytes. CMake's target antilock::antilock carries the two definitions; whoever compiles by hand gives
-// them.
+// Vectors and matrices pass between this library and its user. One side allocates them, the other
+// one frees them, and vectorised code relies on their alignment. Eigen chooses allocation and
+// alignment by the instruction set for which a file is compiled, so that -march=native on only one
+// side ends in a crash. This header makes both the same in every file: memory comes from the
+// system's malloc, aligned to 16 bytes. CMake's target antilock::antilock has the two definitions.
+// A user who compiles without CMake must define them.
 static_assert(
     EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MAX_STATIC_ALIGN_BYTES == 16 && EIGEN_MALLOC_ALREADY_ALIGNED == 1,
     "antilock: this file is compiled with another memory layout of Eigen than the library, which would crash; "

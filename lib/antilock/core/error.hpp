@@ -5,18 +5,20 @@
 
 namespace antilock {
 
-/// What every failure that a user can cause is reported by: one line that says what, where and what is accepted.
+/// The base class of all errors that a user can cause. The message is one line: what is wrong,
+/// where, and what is accepted.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An Error whose message names the input file and the key at fault, `FILE: KEY: ...`. It is handed on as it is:
-/// nobody puts a name before it.
+/// An Error whose message names the input file and the key at fault, `FILE: KEY: ...`. Callers
+/// rethrow it without a prefix.
 struct InputError : Error {
   using Error::Error;
 };
 
-/// A solver that ended without an answer; `what()` says how far it came. It never comes with a solution.
+/// Thrown by a solver that has not converged, in place of a solution. `what()` says how far it
+/// came.
 struct NotConverged : Error {
   NotConverged(const std::string& message, double reached, int steps)
       : Error(message), reached(reached), steps(steps) {}
@@ -24,13 +26,14 @@ struct NotConverged : Error {
   int steps;       ///< the iterations done
 };
 
-/// Text from a file or a command line for use in a message of one line. Characters of UTF-8 stay as
-/// they are; a control character, one that changes the direction or the line of the text, and each
-/// byte that is no UTF-8 become '?'. Text of more than `longest` characters is cut and ends in "...".
+/// Returns text from a file or a command line for use in a message of one line. Characters of UTF-8
+/// stay as they are. A control character, one that changes the direction or the line of the text,
+/// and each byte that is not UTF-8 become '?'. Text of more than `longest` characters is cut and
+/// ends in "...".
 std::string printable(std::string_view text, std::size_t longest = 60);
 
-/// The first character of a text in UTF-8, of one to four bytes: its first byte where that begins no
-/// character. Empty for an empty text.
+/// Returns the first character of a text in UTF-8, of one to four bytes. If the first byte does not
+/// begin a character, it returns this byte. The result is empty for an empty text.
 std::string_view first_character(std::string_view text);
 
 }  // namespace antilock

@@ -6,28 +6,31 @@
 
 namespace antilock {
 
-/// Bytes of the buffer that OpenBLAS maps for each of its threads: its BUFFER_SIZE on x86-64, where it is largest, and a
-/// page.
+/// The size in bytes of the buffer that OpenBLAS maps for each of its threads: its BUFFER_SIZE on
+/// x86-64, the largest of all processors, plus one page.
 constexpr std::size_t blas_buffer = (std::size_t{128} << 20) + (1 << 12);
 
-/// Whether the limits of the process (ulimit -v, ulimit -d) leave room for so many bytes at once; true where the system
-/// is none that is asked (Linux). It needs nothing that a library prepares when it is loaded.
+/// Returns whether the limits of the process (ulimit -v, ulimit -d) leave room for so many bytes at
+/// once. It is always true on systems other than Linux. It may be called before other libraries are
+/// initialised.
 bool can_map(std::size_t bytes);
 
-/// Throws NotConverged, `what` first, where `bytes` more cannot be had: the limits of the process (ulimit -v, ulimit -d)
-/// are asked by a mapping that is given back at once; the memory of its control groups (a container's limit) is
-/// compared, since the kernel hands out more than they allow and kills the process later. Passes where neither is
-/// known.
+/// Throws NotConverged, `what` first, where `bytes` more are not available. The limits of the
+/// process (ulimit -v, ulimit -d) are tested by a mapping that is released at once. From 64 MB on,
+/// the limits of its control groups (those of a container) are read as well, since the kernel
+/// grants more than they allow and kills the process later. Returns where neither limit is known.
 void require_memory(std::size_t bytes, const std::string& what);
 
-/// The bytes that the control groups of this process leave it, the least of them and of those above: version 2, or the
-/// memory controller of version 1. Files that the kernel keeps in memory count as free. Empty where there is no limit.
-/// `groups` is /sys/fs/cgroup, `own` is /proc/self/cgroup.
+/// Returns the bytes that this process may still use: the smallest remainder of its control groups
+/// and of their parents. It reads version 2, or the memory controller of version 1. Files that the
+/// kernel keeps in memory count as free. Empty where there is no limit. `groups` is /sys/fs/cgroup,
+/// `own` is /proc/self/cgroup.
 std::optional<double> left_by_control_groups(const std::filesystem::path& groups, const std::filesystem::path& own);
 
-/// While one exists, its thread may call the BLAS. OpenBLAS maps a buffer for each thread that is in it at the same
-/// time, 128 MB at most, at the first call; where it gets none it asks again without end. The constructor throws
-/// NotConverged where there is no room for one that is still missing. It does nothing with another BLAS.
+/// While an object of this class exists, its thread may call the BLAS. OpenBLAS maps a buffer of at
+/// most 128 MB for each simultaneous thread, at the first call. If this fails, it tries again
+/// without end. Therefore the constructor throws NotConverged where there is no room for a buffer
+/// that is still missing. It does nothing with another BLAS.
 class BlasCalls {
  public:
   BlasCalls();

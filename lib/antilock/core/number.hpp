@@ -5,9 +5,9 @@
 
 namespace antilock {
 
-/// Reads `text`, all of it, as a number with a point for the decimals, whatever the locale is. A plus
-/// sign is accepted, since printf's "%+g" and Fortran's SP write it. False, and `value` as it was,
-/// where `text` is no number; "inf" and "nan" are numbers of type double.
+/// Reads `text`, all of it, as a number with a point for the decimals, whatever the locale is. A
+/// plus sign is accepted, since printf's "%+g" and Fortran's SP write it. Returns false and leaves
+/// `value` unchanged if `text` is not a number. "inf" and "nan" are numbers of type double.
 template <class Number>
 bool read_number(std::string_view text, Number& value) {
   if (text.starts_with('+')) {

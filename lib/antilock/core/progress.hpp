@@ -8,23 +8,24 @@
 
 namespace antilock {
 
-/// Where a long computation stands. Solvers report once per iteration.
+/// The progress of a long computation. Solvers report once per iteration.
 struct Progress {
   std::string stage;     ///< such as "corrections" or "contact"
   int step = 0;          ///< iterations done in this stage, from 1
-  double error = 1;      ///< the estimated relative error now (dimensionless); 1 where it is not known yet
+  double error = 1;      ///< the estimated relative error (dimensionless); 1 until it is known
   double tolerance = 0;  ///< the tolerance, to which `error` falls
 };
 
 /// Called with the progress of a computation; `false` stops it. An empty hook costs nothing.
 using ProgressHook = std::function<bool(const Progress&)>;
 
-/// A computation that its progress hook stopped. It never comes with a solution.
+/// Thrown by a computation that its progress hook has stopped, in place of a solution.
 struct Interrupted : NotConverged {
   using NotConverged::NotConverged;
 };
 
-/// Calls the hook, if there is one. Throws Interrupted, with how far `who` came, where the hook says so.
+/// Calls the hook, if there is one. Throws Interrupted, with the progress of `who` in its message,
+/// if the hook returns false.
 inline void notify_or_throw(const ProgressHook& hook, const Progress& progress, const std::string& who) {
   if (!hook || hook(progress)) return;
   throw Interrupted(

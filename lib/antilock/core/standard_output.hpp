@@ -3,18 +3,19 @@
 
 namespace antilock {
 
-/// Flushes standard output. Throws Error where what was printed did not arrive: on a full disk, or where the program was
-/// started with standard output closed. What is printed through stdio fails at a flush, and a program that does not
-/// look ends with status 0.
+/// Flushes standard output. Throws Error where the output could not be written: on a full disk, or
+/// where the program was started with standard output closed. Output through stdio fails only when
+/// it is flushed. A program that does not check this ends with status 0.
 void require_output();
 
-/// The status that a program ends with, whose own is `status`: where that is 0 and require_output() throws, one line on
-/// standard error, `program` first, and 2. The last call of main.
+/// Returns the exit status of a program. If `status` is 0 and require_output() throws, it prints
+/// one line on standard error, `program` first, and returns 2. Otherwise it returns `status`.
+/// `main` calls it last.
 int delivered(int status, const std::string& program);
 
-/// Opens those of the descriptors 0 to 2 that the program was started without, so that reading and writing them fails.
-/// Else the first file that the program writes would get the number of standard output, and what is printed would
-/// stand in it.
+/// Opens those of the descriptors 0 to 2 that the program was started without, so that reading and
+/// writing them fails. Otherwise the first file that the program writes would get the number of
+/// standard output, and would contain the output.
 void open_standard_streams();
 
 }  // namespace antilock

@@ -3,11 +3,11 @@
 
 namespace antilock {
 
-/// Wall seconds since its start or its last lap.
+/// Measures the wall seconds since its start or its last lap.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  /// The same; a new lap begins.
+  /// Returns the same and begins a new lap.
   double lap() {
     const double elapsed = seconds();
     start_ = std::chrono::steady_clock::now();

@@ -6,9 +6,10 @@
 
 namespace antilock {
 
-/// Formatted text on its way to a stream, in blocks: a stream asked number by number takes ten times as long.
-/// Formats of lines that come by the million are compiled, FMT_COMPILE("{}\n"): the others are read anew each time.
-/// `{}` of a double is the shortest text that reads back as the same double (17 digits at most).
+/// Collects formatted text and writes it to a stream in blocks. Writing single numbers to a stream
+/// takes ten times as long. Compile the formats of frequent lines by FMT_COMPILE("{}\n"). Other
+/// formats are parsed at each call. `{}` of a double is the shortest text that reads back as the
+/// same double (17 digits at most).
 class Text {
  public:
   explicit Text(std::ostream& out) : out_(out) {}
