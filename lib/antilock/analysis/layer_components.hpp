@@ -8,7 +8,7 @@ namespace antilock {
 /// polynomial in x.
 struct LayerComponents {
   int count = 0;
-  /// Whether the mesh is aligned with the layer: vertical mesh lines, as in an extruded mesh, so
+  /// Whether the mesh is aligned with the layer: its lines are vertical, as in an extruded mesh, so
   /// that there is one component below each edge of Sigma, the interface of body and layer.
   bool is_aligned = false;
 };

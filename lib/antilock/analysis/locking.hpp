@@ -8,9 +8,10 @@ namespace antilock {
 
 /// Returns the bending length k_T = abc / (4 area) of a triangle T, where a, b, c are the extents
 /// of its three sides in x. A function w(x) has d_y w = 0, but its P1 interpolant on T has the
-/// slope d_y = +-k_T w'', exactly where w is a parabola. The formula is that of the circumradius
-/// with extents in place of lengths. So k_T is at most the circumradius, and it is 0 where a side
-/// is vertical. A length.
+/// slope d_y = +-k_T w''. That is exact if w is a polynomial of degree 2, and else holds up to
+/// third derivatives of w. The formula is that of the circumradius with extents in place of
+/// lengths. So k_T is at most the circumradius, and it is 0 where a side is vertical. The unit is
+/// that of the mesh.
 double bending_length(const TriangleMesh& mesh, int triangle);
 /// Returns k, the root mean square of k_T over the layer; 0 for a mesh without a layer. Where a
 /// layer is bent with the same u_xx everywhere, the energy of its P1 interpolant contains the term
@@ -22,40 +23,44 @@ inline constexpr double significance = 0.05;
 
 enum class Verdict { locks_completely, locks, locks_in_part, not_detected };
 
-/// A diagnosis, before anything is solved, of whether a discretisation can follow the limit
-/// compliance -> 0. The dimension of the kernel G_h of B does not decide it. In (23) of [SR04]
-/// (cited in problem/variational_inequality.hpp) the body's unknowns are in G_h on every mesh, and
-/// in a coating of plane strain u_x has a large kernel where u_y, which is in contact, has none.
-/// The dimension of the trace of G_h on the bounded unknowns decides (trace_dimension, kernel.hpp),
-/// on a mesh and on a finer one:
+/// A diagnosis of whether a discretisation can follow the limit compliance -> 0. It depends on the
+/// forms and on which unknowns are bounded, and not on the load or on the values of the bounds. The
+/// dimension of the kernel G_h of B does not decide it. In (23) of [SR04] (cited in
+/// problem/variational_inequality.hpp) the body's unknowns are in G_h on every mesh, and in a
+/// coating of plane strain u_x has a large kernel where u_y, which is in contact, has none. The
+/// dimension of the trace of G_h on the bounded unknowns does (trace_dimension, kernel.hpp). It is
+/// compared on a mesh and on a finer one:
 /// - It is 0 on the finer mesh. Then the bounded unknowns tend to 0 as compliance -> 0 (Proposition
-///   1: u_h tends to a function of G_h). Proved.
-/// - It is not larger on the finer mesh. K_0, the functions of K with B v = 0, has infinitely many
-///   independent traces, and m + 1 of them cannot all be limits of functions whose traces have the
-///   dimension m. So some load locks. Proved, if the number stays m on all meshes.
+///   1: u_h tends to a function of G_h). This is proved.
+/// - It is not larger on the finer mesh. K_0, the functions of the admissible set K with B v = 0,
+///   has infinitely many independent traces, and m + 1 of them cannot all be limits of functions
+///   whose traces have the dimension m. So some load locks. This is proved if the number stays m on
+///   all meshes.
 /// - It grows by less than 19/20 of the number of additional bounds: a part of the boundary cannot
-///   move. (That growth alone is not enough shows a layer aligned under one half of the boundary
-///   and with connected triangles under the other half.)
-/// - It grows, but refinement makes the bounds softer under a force at a small compliance than
-///   where both forms are equally stiff: a stiffness of the mesh is in the way. Observed, not
-///   proved. (Growth alone is not enough here either: P1 for rubber with free sides has motions of
-///   every bound that reach one triangle deep.)
-/// - Else no locking for this reason is detected. That is necessary for uniform convergence, not
-///   sufficient: the traces must also approximate those of K_0 (Theorem 4).
+///   move. (Example: the layer is cut into columns under one half of the boundary, and its
+///   triangles are connected under the other half. The dimension grows, but the other half locks.)
+/// - It grows, but refinement increases the flexibility of the bounds by more at a small compliance
+///   than where both forms are equally stiff. So the stiffness depends on the mesh. This criterion
+///   is observed, not proved. (Example: P1 for nearly incompressible plane strain with free sides,
+///   on a mesh with parallel diagonals. There the dimension grows by one per additional bound, and
+///   the method locks.)
+/// - Otherwise no locking for this reason is detected. This is necessary for uniform convergence,
+///   but not sufficient: the traces must also approximate those of K_0 (Theorem 4).
 ///
 /// B is that of the limit: rows that depend on a thickness must be taken at thickness 0.
 struct LockingDiagnosis {
   int coarse = 0, fine = 0;                ///< dimensions of the trace on the bounds
   int coarse_bounds = 0, fine_bounds = 0;  ///< bounded unknowns of the stiff part
-  /// Whether a stiff unknown is bounded. Else all stiff unknowns count as bounded.
+  /// Whether a stiff unknown is bounded. If none is, all stiff unknowns count as bounded.
   bool bounded = true;
-  /// r(compliance) / r(c) - 1, where r is the flexibility of the bounds under a force on the finer
-  /// mesh over that on the coarser one, and c is the compliance at which both forms are about as
-  /// stiff (StiffnessRatio, rounded to a decade). Evaluated at `compliance`, or at 1e-6 c where
-  /// that is 0.
+  /// r(compliance) / r(c) - 1. Here r is the quotient of two flexibilities, that on the finer mesh
+  /// and that on the coarser one. The flexibility is the mean displacement of the bounded unknowns
+  /// under a force of 1 that is spread over them, and c is the compliance at which both forms are
+  /// about as stiff (StiffnessRatio, rounded to a decade). It is evaluated at `compliance`, or at
+  /// 1e-6 c if `compliance` is 0.
   double refinement_softening = 0;
-  /// The largest compliance that locks: the first of 1e-1 c, 1e-2 c, ..., 1e-6 c at which the
-  /// softening is above `significance` and above |r(c) - 1|. 0: none of them.
+  /// The largest compliance that locks: the first of 1e-1 c, 1e-2 c, ..., 1e-6 c at which
+  /// `refinement_softening` is above `significance` and above |r(c) - 1|. It is 0 if there is none.
   double compliance = 0;
 
   Verdict verdict() const;

@@ -15,8 +15,10 @@
 // (22) is the same problem after y -> y / epsilon, (23). J is smallest over these v: a variational inequality with few
 // unknowns.
 //
-// Its bounds hold at the unknowns on Sigma, from the gap as u_h has it at its own points. What v lacks between them, seen
-// at 33 points per edge, is added as a function that is affine on each edge of Sigma and constant in y: v', of K.
+// Its bounds hold at the bottom of the columns, below the unknowns on Sigma. They are interpolated
+// from the bounds of u_h at its own points. Where v is below the obstacle between these points, as
+// seen at 33 points per edge, a function is added that is affine on each edge of Sigma and constant
+// in y. The sum is v', in K.
 #include "antilock/analysis/locking_loss.hpp"
 
 #include <algorithm>

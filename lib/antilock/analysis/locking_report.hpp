@@ -6,9 +6,16 @@
 
 namespace antilock {
 
-/// Returns the report on the locking of a solved scene, and nothing for a scene without a layer. For
-/// layers whose mesh is aligned and for nonconforming elements the mesh decides alone, and no number
-/// is computed. Does not throw where locking_loss does: the diagnosis says why there is no number.
+/// Returns the report on the locking of a solved scene (LockingReport, measure/result.hpp), and
+/// nothing for a scene without a layer. A nonconforming element does not lock on any mesh, and a
+/// conforming one does not lock on an aligned mesh (layer_components.hpp). Then the diagnosis says
+/// so, and locking_loss is not called. Otherwise locking_loss measures the energy that is lost, as
+/// a share of the energy that the motion of the layer releases:
+/// - It warns if the share of the estimate is at least `significance` (locking.hpp), 5 %.
+/// - The warning says "proved" and gives the share of the lower bound if this share, too, is at
+///   least `significance`. Otherwise it gives the estimate, and `lost` is empty.
+///
+/// It does not throw Error where locking_loss does. The diagnosis then says why there is no number.
 std::optional<LockingReport> report_locking(const Scene& scene, const Result& result);
 
 }  // namespace antilock

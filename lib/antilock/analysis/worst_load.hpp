@@ -12,24 +12,27 @@ namespace antilock {
 /// the definition of locking of I. Babuska and M. Suri (SIAM J. Numer. Anal. 29, 1992), without
 /// contact.
 struct WorstLoad {
-  double error = 0;      ///< |u - u_h| in the (broken) energy seminorm, the largest for |f| <= 1 in L2(body)
-  Eigen::VectorXd load;  ///< of norm 1, in LoadModes
+  /// |u - u_h| in the (broken) energy seminorm, the largest for |f| <= 1 in L2(body).
+  double error = 0;
+  Eigen::VectorXd load;  ///< its coefficients in LoadModes, of norm 1
 };
 
 /// Returns l_k, the error at epsilon = 0 under the load psi_k sin(k pi x) / |psi_k|, psi_k = sinh(k
-/// pi (1 - y)) / sinh(k pi), of a method whose functions are all 0 on the layer. It falls with k >=
-/// 1. A conforming method with d independent functions on the layer has a worst error of at least
-/// l_{d+1} over the ball.
+/// pi (1 - y)) / sinh(k pi), of a method whose functions are all 0 on the layer. k is at least 1,
+/// and l_k decreases as k grows. A conforming method with d independent functions on the layer has
+/// a worst error of at least l_{d+1} over the ball.
 double loss_of_wave(int k);
 
 /// Returns the limit as h -> 0 of the worst error of P_p over the ball at epsilon = 0 on an
-/// unstructured mesh; no mesh has a smaller one. It is the error of a body that is resolved
-/// exactly, whose traces on Sigma, the interface of body and layer, are x (1 - x) times polynomials
-/// of degree p - 2, or 0 for p = 1. p >= 1; computed with 64 waves.
+/// unstructured mesh; no mesh has a smaller one. It is the error if the body is resolved exactly,
+/// but its trace on Sigma, the interface of body and layer, is x (1 - x) times a polynomial of
+/// degree p - 2 (0 for p = 1). p is at least 1. The series are cut after 64 waves.
 ///
-/// The functions that are lost are z = sum c_k e_k with a(z, v) = 0 for the kept traces v. In the
-/// basis e_k / |e_k|_a, orthonormal in a, with |z|^2 = sum l_k^2 c_k^2, they are orthogonal to the
-/// vectors (energy_of_wave^(1/2) int v sin(k pi x))_k.
+/// Let e_k be psi_k sin(k pi x) in the body and sin(k pi x) in the layer. The lost functions are z
+/// = sum c_k e_k / |e_k|_a with a(z, v) = 0 for all v with an admissible trace. The e_k / |e_k|_a
+/// are orthonormal in a, so the vector c is orthogonal to (|e_k|_a int v sin(k pi x))_k for each
+/// admissible trace v. The norm of z in L2(body) is (sum l_k^2 c_k^2)^(1/2). The largest one with
+/// |c| = 1 is the worst error, by duality.
 double loss_of_degree(int p);
 
 /// Returns the Kolmogorov n-width of the ball's solutions (A. Pinkus, n-Widths in Approximation
@@ -38,29 +41,32 @@ double loss_of_degree(int p);
 /// the first n + 1 sines in the order of k^2 + m^2.
 double kolmogorov_width(int n);
 
-/// The error of (23) without contact as a quadratic form in the load f = LoadModes:
+/// The error of (23) of [SR04] (cited in problem/variational_inequality.hpp) without contact, as a
+/// quadratic form in the load f, the vector of its coefficients in LoadModes:
 ///
-///     |u - u_h|^2 = f' E f,  E = S - F' A^-1 F                                   V_h in V: by Galerkin's orthogonality
-///                            E = S + F' A^-1 F - F' J - J' F                     CR, J f = I_h u
+///     |u - u_h|^2 = f' E f
+///     E = S - F' A^-1 F                  if V_h is in V, by Galerkin's orthogonality
+///     E = S + F' A^-1 F - F' J - J' F    for CR, with J f = I_h u
 ///
-/// in the seminorm of a^epsilon. S: exact response. F: the loads integrated against the basis. A:
-/// the method's matrix. CR's interpolant I_h u has a_h(u, v_h) = a_h(I_h u, v_h). F is dense, N x
-/// n; E is never formed.
+/// in the seminorm of a^epsilon. S is the exact response (LoadModes::response), F the matrix of the
+/// loads integrated against the basis of V_h, and A the matrix of the method. CR's interpolant I_h
+/// u has a_h(u, v_h) = a_h(I_h u, v_h). F is dense, N x n, and E is never formed.
 class ErrorForm {
  public:
-  /// modes.waves() from 1 to 2 per cell side: above, the load is integrated inexactly. Throws Error for
-  /// more than 4.25 waves per longest edge, a mesh of anything but the two unit squares, a space
-  /// without layer, or of an element that is neither conforming nor CR.
+  /// modes.waves() should be 1 to 2 per cell side, because the load is integrated inexactly above.
+  /// Throws Error for more than 4.25 waves per longest edge, for a mesh other than that of the two
+  /// unit squares, body and layer, and for an element that is neither conforming nor CR.
   ErrorForm(const Space& space, LoadModes modes);
 
-  /// 0 <= epsilon <= 1, else Error; 1 before the first call.
+  /// Sets epsilon, which is 1 at first. Throws Error outside of [0, 1].
   void set_epsilon(double epsilon);
   const LoadModes& modes() const { return modes_; }
-  /// E f.
+  /// Returns E f.
   Eigen::VectorXd apply(const Eigen::VectorXd& f);
-  /// The error |u - u_h| under the load f.
+  /// Returns the error |u - u_h| under the load f.
   double error(const Eigen::VectorXd& f);
-  /// The largest over |f| <= 1, by Lanczos iteration, to a relative `tolerance`, from below.
+  /// Returns the load with the largest error over |f| <= 1. Lanczos iteration approximates this
+  /// error from below to a relative `tolerance`.
   WorstLoad worst(double tolerance = 1e-4);
 
  private:
@@ -75,9 +81,10 @@ class ErrorForm {
   double epsilon_ = 1;
   VariationalInequality problem_;
   std::optional<PenalisedCholesky> factor_;
-  std::vector<int> active_;         // unknowns of the body that are not clamped
-  Eigen::MatrixXd loads_;           // F': n x active
-  Eigen::MatrixXd means_, decays_;  // CR: edge means of the basis (n x active), of 2 sin decay (waves + 1 x active)
+  std::vector<int> active_;  // unknowns of the body that are not clamped
+  Eigen::MatrixXd loads_;    // F': n x active
+  // CR: edge means of the basis (n x active), and of 2 sin decay ((waves + 1) x active)
+  Eigen::MatrixXd means_, decays_;
 };
 
 }  // namespace antilock
