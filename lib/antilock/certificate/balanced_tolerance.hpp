@@ -7,11 +7,11 @@
 
 namespace antilock {
 
-/// Two numbers with the energy J(u) of the exact solution between them, computed without knowing
-/// it.
+/// Bounds of the energy J(u) = a(u, u) / 2 - L(u) of the exact solution u, computed without knowing
+/// u.
 struct EnergyBounds {
   double lower = 0;  ///< by duality, from a Crouzeix-Raviart solution
-  double upper = 0;  ///< J of a function of K, the P1 solution, with what the quadrature leaves of the load
+  double upper = 0;  ///< J of the P1 solution, which is in K (certificate.hpp: energy_upper)
 
   double width() const { return upper - lower; }
 };
@@ -22,16 +22,18 @@ struct EnergyBounds {
 EnergyBounds energy_bounds(const Scene& scene, const TriangleMesh& mesh);
 
 /// Returns the tolerance at which an iteration for u_h may stop: the fraction `share` of the
-/// relative width b = width / |J|, in the energy norm. Because errors in the energy norm are of the
-/// order sqrt(b), and those in the maximum norm of the order b where u is smooth, b is the smaller
-/// of the two. Since the energy is quadratic and |u_h|_a^2 = 2 |J| on a cone K,
+/// relative width b = width / |J|, in the energy norm. Errors in the energy norm are of the order
+/// sqrt(b), those in the maximum norm of the order b where u is smooth. The tolerance uses b,
+/// because it is the smaller one. The energy is quadratic, and |u_h|_a^2 = 2 |J| if the admissible
+/// set K is a cone. Therefore
 ///
 ///     J(v) - J(u_h) <= (share b)^2 |J|   implies   |v - u_h|_a <= share b |u_h|_a.
 ///
-/// The default share left every error within 1 % (observed, chapter 21). The bounds may come from a
-/// mesh that is coarser by the factor `coarser`, where they cost little. Their width is then
-/// divided by coarser^2 (order h^2), which is cautious where P1 locks. Where the width is not
-/// positive, both tolerances are 0. Throws Error unless coarser >= 1 and 0 < share <= 1.
+/// With the default share the errors were within 1 % of those after convergence (observed, chapter
+/// 21). The bounds may come from a mesh that is coarser by the factor `coarser`, where they cost
+/// little. Their width is then divided by coarser^2 (order h^2), which is too strict, and so on the
+/// safe side, where P1 locks. Where the width is not positive, both tolerances are 0. Throws Error
+/// unless coarser >= 1 and 0 < share <= 1.
 AlgebraicTolerance balanced_tolerance(const EnergyBounds& bracket, double coarser = 1, double share = 0.05);
 
 }  // namespace antilock

@@ -5,23 +5,24 @@
 
 namespace antilock {
 
-/// A P1 function on a layer in columns (mesh/layered.hpp), to be asked anywhere in the layer, whatever mesh the
-/// question comes from.
+/// A P1 function on a layer in columns (mesh/layered.hpp). It can be evaluated at every point of
+/// the layer, so also at the points of another mesh.
 class ExtrudedP1Function {
  public:
-  /// `mesh` as extruded() makes it; v: V values at its vertices; p: one layer stress per layer triangle.
+  /// `mesh` is a mesh made by extruded(), v has V values at its vertices, and p has one layer
+  /// stress per layer triangle.
   ExtrudedP1Function(TriangleMesh mesh, Eigen::VectorXd v, Eigen::VectorXd p);
 
   double value(const Eigen::Vector2d& x) const;
-  /// (d_x v, p) at a point.
+  /// Returns (d_x v, p) at a point.
   Eigen::Vector2d flux(const Eigen::Vector2d& x) const;
-  /// The mean of v over the segment from a to b, exact.
+  /// Returns the mean of v over the segment from a to b, exactly.
   double mean(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
 
   const TriangleMesh& mesh() const { return mesh_; }
   const Eigen::VectorXd& v() const { return v_; }
   const Eigen::VectorXd& p() const { return p_; }
-  /// (d_x v, p) on the layer triangle `row`, counted among the layer's.
+  /// Returns (d_x v, p) on the layer triangle `row`, counted among the layer triangles.
   Eigen::Vector2d flux_of(int row) const;
   int first_triangle() const { return first_; }  ///< of the layer: those before are the body's
 
