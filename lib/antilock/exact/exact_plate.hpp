@@ -1,18 +1,20 @@
 #pragma once
 namespace antilock {
 
-/// The exact clamped plate of radius 1 under the load -load, pressed on a flat obstacle at -gap: it touches on the disc
-/// r <= c. Closed form for every thickness but for one scalar root, derived in exact_plate.cpp; t = 0 is Kirchhoff's.
+/// The exact solution of the clamped plate of radius 1 that the load -load presses on a flat
+/// obstacle at -gap. It touches the obstacle on the disc r <= c. It is a closed form for every
+/// thickness t, except for c, the root of a scalar equation (derived in exact_plate.cpp). t = 0 is
+/// Kirchhoff's plate. Everything is dimensionless, as in models/plate.hpp.
 class ExactPlate {
  public:
   /// Throws Error where the plate does not touch the obstacle on a disc.
   ExactPlate(double thickness, double load = 256, double gap = 1);
   double contact_radius() const { return c_; }
   double deflection(double r) const;  ///< w(r) >= -gap, 0 at r = 1
-  double contact_force() const;       ///< load pi less what the rim carries
+  double contact_force() const;       ///< pi load minus the force at the clamped edge
 
  private:
-  struct Free {  ///< constants of the free part
+  struct Free {  ///< constants of the part without contact
     double a, b, c;
   };
   Free free_part(double radius) const;

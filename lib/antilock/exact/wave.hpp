@@ -3,15 +3,17 @@
 
 namespace antilock {
 
-// One wave sin(k pi x), a = k pi: what is left in y, in closed form.
+// The problem in y for one wave sin(k pi x), a = k pi, in closed form. Sigma is the interface y = 0
+// of body and layer, Gamma_C the contact boundary y = -1.
 
-/// What the body does under the load f_k(y) sin(k pi x), f_k a polynomial, while both y = 0 and y = 1 are held:
-/// u = G(y) sin(k pi x) with -G'' + a^2 G = f_k, G(0) = G(1) = 0, a = k pi. Closed form, safe for every k.
+/// The solution in the body under the load f_k(y) sin(k pi x), f_k a polynomial, with u = 0 at y =
+/// 0 and y = 1: u = G(y) sin(k pi x) with -G'' + a^2 G = f_k, G(0) = G(1) = 0, a = k pi. The closed
+/// form does not overflow for any k.
 class LoadResponse {
  public:
-  /// profile: f_k(y) = profile[0] + profile[1] y + ..., degree at most max_degree.
+  /// `profile` gives f_k(y) = profile[0] + profile[1] y + ..., of degree at most max_degree.
   LoadResponse(int k, std::vector<double> profile);
-  /// Beyond it the closed form loses more than three digits by cancellation at k = 1.
+  /// Above this degree the closed form loses more than three digits by cancellation at k = 1.
   static constexpr int max_degree = 12;
 
   int k() const { return k_; }
@@ -28,23 +30,28 @@ class LoadResponse {
   double pull_, work_;
 };
 
-/// sinh(a(1-y)) / sinh(a) and -1/a times its derivative, 0 <= y <= 1, by decaying exponentials.
+/// Return sinh(a(1-y)) / sinh(a), and -1/a times its derivative, 0 <= y <= 1, by decaying
+/// exponentials.
 double decay(double a, double y);
 double decay_slope(double a, double y);
 
-/// Body and layer as seen from Gamma_C in the mode sin(k pi x), a = k pi: the transmission-line formulas.
-/// Every member is finite for every 0 <= epsilon <= 1, 0 included. Derivation in wave.cpp.
+/// The response of body and layer on Gamma_C in the mode sin(k pi x), a = k pi, by the formulas of
+/// transmission lines. Every member is finite for every 0 <= epsilon <= 1, 0 included. wave.cpp has
+/// the derivation.
 struct Symbols {
   Symbols(int k, double epsilon);
-  double a;          ///< k pi
-  double body;       ///< T = a coth a: the pull of the body on Sigma is G'(0) - T w
-  double layer;      ///< R = a tanh(kappa) / epsilon: that of a layer that is free on Gamma_C is R w
+  double a;     ///< k pi
+  double body;  ///< T = a coth a: the pull of the body on Sigma is G'(0) - T w
+  /// R = a tanh(kappa) / epsilon, kappa = epsilon a: the pull on Sigma of a layer that is free on
+  /// Gamma_C is R w.
+  double layer;
   double stiffness;  ///< D_k: lambda_k = D_k c_k - q_k
-  double trace;      ///< w_k = trace c_k + lift G'(0): u on Sigma from u on Gamma_C and the load; q_k = trace G'(0)
-  double lift;       ///< (see trace)
+  /// w_k = trace c_k + lift G'(0): u on Sigma from u on Gamma_C and the load; q_k = trace G'(0).
+  double trace;
+  double lift;  ///< (see trace)
 };
 
-/// polynomial[0] + polynomial[1] y + ...
+/// Returns polynomial[0] + polynomial[1] y + ...
 double evaluate(const std::vector<double>& polynomial, double y);
 
 }  // namespace antilock
