@@ -5,8 +5,8 @@
 
 namespace antilock {
 
-/// An edge of Gamma_C, the contact boundary: its triangle, and the local vertex opposite
-/// (form/quadrature.hpp: on_edge).
+/// An edge of Gamma_C, the contact boundary, given by its triangle and the local vertex opposite to
+/// it (form/quadrature.hpp: on_edge).
 struct ContactEdge {
   int triangle, opposite;
   double length;  ///< dimensionless, as the mesh

@@ -15,11 +15,12 @@ namespace antilock {
 struct Reference {
   std::function<double(double x, double y)> value;
   std::function<Eigen::Vector2d(double x, double y)> gradient;
-  std::function<double(double x, double y)> layer_stress;  ///< epsilon^-2 d/dy u in the layer, its limit at epsilon = 0
-  /// All three at once, where that is faster. layer_stress has no meaning above the layer. May be
-  /// empty.
+  /// epsilon^-2 d/dy u in the layer, its limit at epsilon = 0.
+  std::function<double(double x, double y)> layer_stress;
+  /// Returns all three at once, which may be faster. Its layer_stress has no meaning above the
+  /// layer. It may be empty; then the functions above are called.
   std::function<ExactPoint(double x, double y)> at = {};
-  /// Returns all three at x, the stress in the layer alone.
+  /// Returns all three at x; the stress is set only if `in_layer` is true or `at` is set.
   ExactPoint known(const Eigen::Vector2d& x, bool in_layer) const;
 };
 
@@ -35,9 +36,9 @@ struct Errors {
   double l2 = 0;
   double h1 = 0;  ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
   /// The energy norm |.|_a^epsilon of Remark 4 of [SR04] (cited in
-  /// problem/variational_inequality.hpp) for (23) and (24) with s = 1; a factor s of the scene is
-  /// not known here. The stiff part is computed from p, which is finite at epsilon = 0. For (22),
-  /// (25) and without a layer it is the norm of the gradient.
+  /// problem/variational_inequality.hpp) for (23) and (24) with s = 1; a stiffness s of the scene's
+  /// layer is not taken into account. The stiff part is computed from p, which is finite at epsilon
+  /// = 0. For (22), (25) and without a layer it is the norm of the gradient.
   double energy = 0;
   /// T: the error of each triangle in the energy norm. Their squares add up to the square of
   /// `energy`.

@@ -8,40 +8,50 @@
 
 namespace antilock {
 
-/// Wall seconds of a run by stage: the scene and its mesh, the discrete problem with a look at its load, the factor, the
-/// rest of the solve with the checks of the result. The files are timed where they are written.
+/// Wall seconds of a run by stage. `mesh` is the time of the scene and its mesh, `assemble` that of
+/// the discrete problem and the check of its load, `factor` that of the factorisation, and `solve`
+/// that of the rest of the solve with the checks of the result. The times of the files are measured
+/// where they are written.
 struct RunSeconds {
   double mesh = 0, assemble = 0, factor = 0, solve = 0;
 };
 
-/// What report_locking (analysis/locking_report.hpp) finds in a solved scene with a layer.
+/// The result of report_locking (analysis/locking_report.hpp) for a solved scene with a layer.
+/// Shares are fractions of `reference`, from 0 to 1 (LockingLoss::share,
+/// analysis/locking_loss.hpp).
 struct LockingReport {
-  std::string diagnosis;  ///< one line: whether the method follows the layer as epsilon -> 0, and why
-  /// The share of LockingLoss::lower_bound, where the method can lock; empty where it locks and that is not proved.
+  std::string diagnosis;  ///< one line: whether the element locks in the layer, and why
+  /// The share of LockingLoss::lower_bound. It is empty where nothing can lock, where locking_loss
+  /// throws, and where the method locks but that is not proved: `estimate` is at least 5 %
+  /// (`significance`), and the share of the lower bound is not.
   std::optional<double> lost = {};
-  /// Empty, or one sentence with the word "locks", the share, how it is known (proved, or by a second solve with
-  /// columns where `lost` is empty) and the remedies.
+  /// Empty if `estimate` is below 5 %. Otherwise one sentence with the word "locks", the share, how
+  /// it is known ("proved", or by a second solve with columns if `lost` is empty) and the remedies.
   std::string warning = {};
-  double estimate = 0;   ///< the share of LockingLoss::estimate
-  double reference = 0;  ///< LockingLoss::reference, of which both are shares
+  /// The share of LockingLoss::estimate; 0 where locking_loss was not called or throws.
+  double estimate = 0;
+  double reference = 0;  ///< LockingLoss::reference, an energy
 
-  /// One line for a program to print: the warning, or the diagnosis where there is none.
+  /// Returns one line for a program to print: the warning, or the diagnosis if there is no warning.
   const std::string& text() const { return warning.empty() ? diagnosis : warning; }
 };
 
-/// A discrete solution with its space and its problem, from which everything is measured, proved, drawn and written.
+/// A discrete solution with its space and its problem. Errors, certificates, pictures and files are
+/// made from it.
 struct Result {
   Space space;
   VariationalInequality problem = {};
   Solution solution = {};
   RunSeconds seconds = {};
-  /// Empty, or one line: each reason to distrust the result, first that the element locks.
+  /// Empty, or one line with each reason to distrust the result. Locking comes first.
   std::string warning = {};
-  std::optional<LockingReport> locking = {};  ///< of a scene with a layer, where it was asked for
+  /// Set by `solve` (analysis/solve.hpp) for a scene with a layer.
+  std::optional<LockingReport> locking = {};
 };
 
-/// Returns a result in the form that the analysis studies: rows of B with a positive fixed compliance
-/// are assembled into A1 (problem/variational_inequality.hpp), and p has the other rows' entries.
+/// Returns a result in the form that the analysis studies: rows of B with a positive fixed
+/// compliance are assembled into A1 (problem/variational_inequality.hpp), and p keeps the entries
+/// of the other rows.
 inline Result assemble_fixed_rows(const Result& result) {
   const VariationalInequality& problem = result.problem;
   Result summed{result.space, assemble_fixed_rows(problem), result.solution};
@@ -56,7 +66,7 @@ inline Result assemble_fixed_rows(const Result& result) {
   return summed;
 }
 
-/// Both warnings in one line, or the one that is not empty.
+/// Returns both warnings in one line, or the one that is not empty.
 inline std::string joined(const std::string& a, const std::string& b) {
   return a + (a.empty() || b.empty() ? "" : "; ") + b;
 }
