@@ -9,9 +9,9 @@
 
 namespace antilock {
 
-/// Returns the N values of int g phi_i over the edges with this tag, phi_i the basis functions
-/// (between two triangles the mean of both sides). Gauss's rule is exact for g of degree k + 3, k
-/// the degree of the element. Throws Error where g is not finite.
+/// Returns the N values of int g phi_i over the edges with this tag, phi_i the basis functions. On
+/// an edge between two triangles phi_i is the mean of both sides. Gauss's rule is exact for g of
+/// degree k + 3, k the degree of the element. Throws Error where g is not finite.
 Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g);
 /// Returns the N x N matrix of int k u v over these edges. Throws Error where k is negative or not
 /// finite.
@@ -22,13 +22,14 @@ WeightedFactoredForm edge_rows(const Space& space, EdgeTag tag, const Field& k);
 /// Returns the N x N matrix B' diag(stiffness m) B of a form in factors.
 Eigen::SparseMatrix<double> gram_matrix(const WeightedFactoredForm& rows);
 
-/// Returns the N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v, (25) of [SR04] (cited in
-/// problem/variational_inequality.hpp), on the contact edges of a mesh of the body alone. The trace
-/// of u is the continuous piecewise affine function through the unknowns on Sigma and the clamped
-/// ends. For P1 that is the trace itself. For CR it goes through the edge midpoints, because the
-/// broken trace has no derivative across vertices. `given` are the V values that are prescribed at
-/// the ends of Dirichlet edges. Throws Error for another element than P1 or CR, and where Sigma is
-/// bent, in pieces or not clamped at both ends.
+/// Returns the N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v of (25) of [SR04] (cited in
+/// problem/variational_inequality.hpp). The mesh is that of the body alone, and Sigma, the
+/// interface of body and layer, consists of its contact edges. The trace of u is the continuous
+/// piecewise affine function through the unknowns on Sigma and the clamped ends. For P1 that is the
+/// trace itself. For CR it goes through the edge midpoints, because the broken trace has no
+/// derivative across vertices. `given` are the V values that are prescribed at the ends of
+/// Dirichlet edges. Throws Error for another element than P1 or CR, and where Sigma is bent, in
+/// pieces or not clamped at both ends.
 Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::VectorXd& given);
 
 }  // namespace antilock

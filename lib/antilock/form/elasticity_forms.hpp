@@ -23,8 +23,9 @@ struct Lame {
   /// Returns the 4 x 4 matrix of 2 mu eps(u):eps(v) + lambda div u div v between the derivatives of
   /// u and those of v.
   Eigen::Matrix4d matrix() const;
-  /// Returns 4 mu (lambda + mu) / (lambda + 2 mu), the modulus of a thin sheet in plane strain: the
-  /// form is that times u_x^2 where the stress in y vanishes, v_y = -lambda / (lambda + 2 mu) u_x.
+  /// Returns 4 mu (lambda + mu) / (lambda + 2 mu), the modulus of a thin sheet in plane strain: if
+  /// the stress in y vanishes, which is v_y = -lambda / (lambda + 2 mu) u_x, the form is this
+  /// modulus times u_x^2.
   double plane_strain_modulus() const { return 4 * mu * (lambda + mu) / (lambda + 2 * mu); }
   /// Returns the form of `matrix` as a sum of weighted squares of u_x, v_y, u_y + v_x and, where
   /// lambda is not 0, u_x + v_y.

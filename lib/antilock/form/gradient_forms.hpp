@@ -25,18 +25,18 @@ double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer);
 /// Returns the same for a stiffness per triangle (T).
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<Stiffness>& of_triangle);
-/// Returns the same form in factors: rows of B are d_x and d_y at each point of strain_quadrature
-/// where their stiffness is positive.
+/// Returns the same form in factors. The rows of B are d_x and d_y at each point of
+/// strain_quadrature; those of stiffness 0 are left out.
 WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle);
 
 /// Returns the factored form of a_y^-(u, v) = (B u, M B v) of (23). A row of B is d_y at a
 /// quadrature point of a layer triangle, and M holds the weight of the point times the area. For P1
-/// and CR d_y u is constant on a triangle, which has one row then. `direction` returns the
-/// direction to use on a triangle in place of y.
+/// and CR d_y u is constant on a triangle, so there is one row per triangle. `direction`, if not
+/// empty, returns the direction that replaces y on a triangle.
 FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2d(int triangle)>& direction = {});
-/// Returns the quadrature rule of these rows. d/dy u_h has degree k - 1 on a triangle, and its
-/// square degree 2 (k - 1): the rule is the centroid for degree 1 and the edge midpoints for degree
-/// 2.
+/// Returns the quadrature rule of these rows. For an element of degree k, d/dy u_h has degree k - 1
+/// on a triangle, and its square degree 2 (k - 1). So the rule is the centroid for k = 1 and the
+/// edge midpoints for k = 2.
 const Quadrature& strain_quadrature(const Element& element);
 
 /// Returns the N values of int f phi_i over the body, or over the layer, by load_rule.

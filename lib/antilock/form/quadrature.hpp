@@ -15,13 +15,13 @@ struct Quadrature {
 };
 
 /// Returns Radon's 7-point rule, exact for polynomials of degree 5. It is FreeFEM's qf5pT, so that
-/// loads agree to round-off.
+/// loads agree with those of FreeFEM to round-off.
 const Quadrature& radon_rule();
 /// Returns the rule of the 3 edge midpoints, exact for degree 2 (Strang and Fix).
 const Quadrature& midpoint_rule();
-/// Returns a rule that is exact for the given degree: the centroid, midpoint_rule, radon_rule, and
-/// from degree 6 on Gauss points in both directions of a square that is mapped to the triangle
-/// (Stroud's conical product). Throws Error for a degree outside 0 to 12.
+/// Returns a rule that is exact for the given degree: the centroid, midpoint_rule or radon_rule,
+/// and from degree 6 on Stroud's conical product (Gauss points in both directions of a square that
+/// is mapped to the triangle). Throws Error for a degree outside 0 to 12.
 const Quadrature& triangle_rule(int degree);
 
 /// Returns points (n) and weights (n) of Gauss's rule on (0, 1), exact for degree 2n - 1.
@@ -31,8 +31,8 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n);
 /// vertex i + 1, 1 at i + 2.
 Eigen::Vector3d on_edge(int i, double s);
 
-/// Returns the mean of every basis function of the element over the edge opposite local vertex i,
-/// exact.
+/// Returns the mean of every basis function of the element over the edge opposite local vertex i.
+/// The means are exact.
 Eigen::VectorXd means_on_edge(const Element& element, int i);
 
 }  // namespace antilock

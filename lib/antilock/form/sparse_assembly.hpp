@@ -22,12 +22,12 @@ Matrix from_triplets(Eigen::Index rows, Eigen::Index columns, const Triplets& en
 /// A factored form while it is collected row by row.
 class FactoredFormBuilder {
  public:
-  /// A new row, of this cell and with this entry of M.
+  /// Adds a row for this cell, with this entry of M.
   void add(int cell, double weight) {
     cell_.push_back(cell);
     m_.push_back(weight);
   }
-  /// An entry of the newest row of B.
+  /// Adds an entry to the newest row of B.
   void put(int unknown, double value) { b_.emplace_back(static_cast<int>(m_.size()) - 1, unknown, value); }
   FactoredForm form(int unknowns) const {
     const auto rows = static_cast<Eigen::Index>(m_.size());
@@ -40,9 +40,10 @@ class FactoredFormBuilder {
   std::vector<int> cell_;
 };
 
-/// Returns the column pointers (N + 1) of the compressed matrix of a space: where each column
-/// begins, and where the last one ends. The rows of a column are the unknowns that share a triangle
-/// with its unknown. The mesh counts them by the vertices, edges and triangles around it.
+/// Returns the column pointers (N + 1) of the compressed matrix of a space: the position at which
+/// each column begins, and the one at which the last column ends. The rows of a column are the
+/// unknowns that share a triangle with its unknown. They are counted by the vertices, edges and
+/// triangles around it.
 inline std::vector<int> column_pointers(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const int v = space.element().dofs_per_vertex(), e = space.element().dofs_per_edge(),

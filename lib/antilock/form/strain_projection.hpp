@@ -5,18 +5,19 @@
 
 namespace antilock {
 
-/// The weights of a strain projection onto means (G x R): a row per mean, a column per row of B.
-/// Weights are not negative, and each column sums to 1.
+/// The weights of a strain projection onto G means (G x R), with one row per mean and one column
+/// per row of B. Weights are not negative, and each column sums to 1.
 using StrainProjection = RowMatrix;
 
 /// Returns the form of the projected strain, as in the B-bar method (T. J. R. Hughes, Int. J.
 /// Numer. Methods Eng. 15, 1980). Row g of the new B is the mean of the rows r of B with the
-/// weights projection(g, r) m(r), and the new M are the sums of these weights. Weights 0 and 1 make
-/// groups: the strain is projected in L2 onto constants per group. Hat functions phi_g as weights
-/// make a mixed form: a row is (int phi_g times the strain) / (int phi_g). By Jensen's inequality
-/// the new form is never larger than the old one. `cell` of a mean is the first cell with a weight
-/// in it; it is empty where the form has no cells. Throws Error for another number of columns, a
-/// negative weight, a column that does not sum to 1, and an empty row.
+/// weights projection(g, r) m(r), and the new M are the sums of these weights. With weights 0 and 1
+/// the rows form groups, and the strain is projected in L2 onto the functions that are constant on
+/// each group. With hat functions phi_g as weights the form is a mixed one: a row is (int phi_g
+/// times the strain) / (int phi_g). By Jensen's inequality the new form is never larger than the
+/// old one. `cell` of a mean is the first cell that has a weight in it. `cell` is empty if the form
+/// has no cells. Throws Error for another number of columns, a negative weight, a column that does
+/// not sum to 1, and an empty row.
 FactoredForm project_strain(const FactoredForm& form, const StrainProjection& projection);
 
 /// Returns the projection onto the means over the boxes of a grid that contain the centroid of a
@@ -24,9 +25,9 @@ FactoredForm project_strain(const FactoredForm& form, const StrainProjection& pr
 /// Throws Error for a length that is not positive.
 StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& form, double width, double height);
 
-/// Returns the projection onto one weighted mean per vertex of the cells, over its patch. The
-/// weight is the hat function of the vertex at the points of `rule`: the rows of a cell are the
-/// points of the rule, in turn. Throws Error where they are not.
+/// Returns the projection onto one weighted mean per vertex, over the cells that have this vertex.
+/// The weight is the hat function of the vertex at the points of `rule`. The rows of a cell must
+/// belong to the points of the rule, in their order. Throws Error otherwise.
 StrainProjection vertex_projection(const TriangleMesh& mesh, const FactoredForm& form, const Quadrature& rule);
 
 }  // namespace antilock

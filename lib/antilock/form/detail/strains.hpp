@@ -16,14 +16,15 @@ class Gradients {
       of_y_.push_back(space.y.element().derivative(point));
     }
   }
-  /// The unknowns behind the columns, in the whole vector.
+  /// Returns the unknown of each column, as an index of the whole vector.
   Eigen::VectorXi unknowns(int t) const {
     Eigen::VectorXi both(m_ + n_);
     both << space_.x.cell_dofs().row(t).transpose(),
         (space_.y.cell_dofs().row(t).transpose().array() + space_.x.size()).matrix();
     return both;
   }
-  /// 4 x (m + n)
+  /// Returns the derivatives at point q (4 x (m + n)), m and n the numbers of unknowns of the two
+  /// elements.
   Eigen::Matrix4Xd at(Eigen::Index q, const Eigen::Matrix<double, 3, 2>& barycentric) const {
     Eigen::Matrix4Xd d = Eigen::Matrix4Xd::Zero(4, m_ + n_);
     d.topLeftCorner(2, m_) = (of_x_[q] * barycentric).transpose();
@@ -34,7 +35,8 @@ class Gradients {
  private:
   const VectorSpace& space_;
   int m_, n_;
-  std::vector<Eigen::MatrixX3d> of_x_, of_y_;  ///< by the barycentric coordinates, the same on every triangle
+  /// The derivatives by the barycentric coordinates, the same on every triangle.
+  std::vector<Eigen::MatrixX3d> of_x_, of_y_;
 };
 
 /// Assembles element matrices into a sparse matrix (size x size). `local(t)` returns the unknowns
