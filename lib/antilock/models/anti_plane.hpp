@@ -5,11 +5,11 @@
 
 namespace antilock {
 
-/// Assembles the discrete problem of a scene on its space: (23) or, for epsilon = 0, (24) of [SR04]
-/// (cited in problem/variational_inequality.hpp) for a stiff layer, (22) for a thin one, (25) for
-/// Ventcel's condition, and the Laplacian alone without a layer. With contact it has the bounds u
-/// >= -gap(x) on Gamma_C, the contact boundary. Throws Error where mesh and scene do not fit, and
-/// where the gap is not finite.
+/// Assembles the discrete problem of a scene on its space. For a stiff layer it is (23) or, for
+/// epsilon = 0, (24) of [SR04] (cited in problem/variational_inequality.hpp). It is (22) for a thin
+/// layer and (25) for Ventcel's condition. Without a layer it is the problem of the body alone.
+/// With contact it has the bounds u >= -gap(x) on Gamma_C, the contact boundary. Throws Error where
+/// mesh and scene do not fit, and where the gap is not finite.
 VariationalInequality assemble(const Scene& scene, const Space& space);
 
 /// Returns the load of such a problem (N): the forces on the body, on a scaled layer and on the
@@ -19,13 +19,13 @@ Eigen::VectorXd load_of(const Scene& scene, const Space& space);
 /// Returns the class parameter of (1), which in (23) is the square of the epsilon of [SR04].
 /// `assemble` puts it into VariationalInequality::compliance.
 double class_parameter(const StiffLayer& layer);
-/// Returns the displacement that is prescribed at the point x of the Dirichlet edge e: 0 on a
-/// clamped edge, and on the side of a layer the displacement above it, at y = 0.
+/// Returns the displacement that is prescribed at the point x of the Dirichlet edge e. It is 0 on a
+/// clamped edge. On the side of a layer it is the displacement at y = 0 above x.
 double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const Eigen::RowVector2d& x);
 /// Returns V values: the prescribed displacement at the ends of Dirichlet edges, and 0 elsewhere. A
 /// vertex at which groups with displacements meet has the mean of their values, whatever their
-/// order. One at which such a group meets a clamped edge has the value of the group. `assemble`
-/// does the same.
+/// order. A vertex at which such a group meets a clamped edge has the value of the group.
+/// `assemble` uses the same values.
 Eigen::VectorXd dirichlet_vertex_values(const Scene& scene, const TriangleMesh& mesh);
 
 }  // namespace antilock

@@ -8,13 +8,14 @@ namespace antilock {
 /// A clamped plate of Reissner and Mindlin, pressed by `load` on an obstacle below all of it (the
 /// thin structure of the introduction of [SR04], cited in problem/variational_inequality.hpp, in
 /// two dimensions). It is dimensionless: the bending stiffness is 1, the shear stiffness 1 / t^2.
-/// With Young's modulus E, Poisson's ratio nu and the shear factor k = 5/6, t is the thickness over
-/// sqrt(6 k (1 - nu)) times the unit of length: 1.9 times thinner.
+/// With Young's modulus E, Poisson's ratio nu and the shear factor k = 5/6, t is the thickness
+/// divided by sqrt(6 k (1 - nu)), which is 1.9 for nu = 0.3, and by the unit of length.
 struct Plate {
   double thickness = 1e-4;                             ///< t, 0 to 1; 0 is Kirchhoff's plate
   double poisson = 0.3;                                ///< nu, 0 to less than 1
   Field load = [](double, double) { return -256.0; };  ///< force per area, upwards
-  Field gap = [](double, double) { return 1.0; };      ///< of the obstacle below w = 0; infinity: no obstacle
+  /// Distance of the obstacle below w = 0; infinity: none.
+  Field gap = [](double, double) { return 1.0; };
   Field boundary_deflection = [](double, double) { return 0.0; };  ///< w on the clamped edges
   Field boundary_rotation_x = [](double, double) { return 0.0; };  ///< theta on the clamped edges
   Field boundary_rotation_y = [](double, double) { return 0.0; };

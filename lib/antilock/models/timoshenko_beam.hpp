@@ -3,7 +3,8 @@
 
 namespace antilock {
 
-/// The quadrature of the shear strain w' - theta on a cell. The choice changes B and nothing else.
+/// The quadrature of the shear strain w' - theta on a cell, w the deflection and theta the
+/// rotation. The choice changes only B and M.
 enum class ShearIntegration {
   full,    ///< two Gauss points per cell, exact for P1/P1: locks
   reduced  ///< the midpoint: does not lock

@@ -11,25 +11,26 @@ namespace antilock {
 /// Entries of A1 are rounded to eps. In a part of stiffness k this leaves a spring of about eps k
 /// to the ground at each unknown. Where a stiffness k0 alone holds the part, n unknowns move by n
 /// eps k / k0 of themselves: at k / k0 = 1e3 and n = 1e6 by 2e-7. So A1 sums the forms up to 1e3
-/// times the softest one. The others are rows of B with fixed compliances. A motion without
-/// strain costs there the square of a rounding, and moves by n eps^2 k / k0: 5e-10 at k / k0 =
-/// 1e16.
+/// times the softest one. The others are rows of B with fixed compliances. There the energy of a
+/// motion without strain is the square of a rounding error, and the unknowns move by n eps^2 k /
+/// k0: 5e-10 at k / k0 = 1e16.
 class StiffnessRange {
  public:
-  /// `unit`: the stiffness in which M of the problem's rows of B is measured.
+  /// `unit` is the stiffness by which the entries of M of the problem's rows of B are multiplied.
   explicit StiffnessRange(double unit) : unit_(unit) {}
 
   /// Notes a stiffness of the problem; 0 is none.
   void note(double stiffness);
-  /// Throws Error where the stiffnesses noted are more than 1e16 apart. `what` opens its message.
+  /// Throws Error if the noted stiffnesses differ by a factor of more than 1e16. Its message begins
+  /// with `what`.
   void check(const char* what) const;
 
   /// Returns whether a form of this stiffness may be assembled into A1: it is at most 1e3 times the
   /// softest one.
   bool fits_in_a1(double stiffness) const { return stiffness <= 1e3 * softest_; }
   double softest() const { return softest_; }
-  /// Appends the form to B: M is the rows' own times the unit, the compliances are unit /
-  /// stiffness.
+  /// Appends the form to B. Its entries of M are multiplied by the unit, and its compliances are
+  /// unit / stiffness.
   void append(VariationalInequality& problem, const WeightedFactoredForm& rows) const;
 
  private:
