@@ -16,10 +16,11 @@ class Element {
   virtual int degree() const = 0;                   ///< the polynomial degree of the basis
   virtual bool conforming() const { return true; }  ///< V_h is a subspace of V: no jumps
   virtual int dofs_per_vertex() const = 0;          ///< unknowns at a vertex
-  virtual int dofs_per_edge() const = 0;  ///< unknowns on an edge, ordered from its vertex i+1 to its vertex i+2
+  /// Unknowns on an edge, ordered from its vertex i+1 to its vertex i+2.
+  virtual int dofs_per_edge() const = 0;
   virtual int dofs_per_cell() const = 0;  ///< unknowns inside a triangle
-  /// Returns the barycentric coordinates of the unknowns (m x 3). Basis function i is 1 at row i
-  /// and 0 at the others.
+  /// Returns the barycentric coordinates of the support points of the unknowns (m x 3). Basis
+  /// function i is 1 at row i and 0 at the others.
   virtual Eigen::MatrixX3d support_points() const = 0;
   /// Returns the m values of the basis at lambda.
   virtual Eigen::VectorXd basis(const Eigen::Vector3d& lambda) const = 0;
@@ -31,11 +32,12 @@ class Element {
   int dofs() const { return 3 * dofs_per_vertex() + 3 * dofs_per_edge() + dofs_per_cell(); }
 };
 
-/// The elements. Each is one instance that lives as long as the program. P1 to P4 are conforming;
-/// beyond P1 the contact condition holds at the unknowns on Gamma_C, the contact boundary, alone,
-/// so that K_h is not part of K. CR is Crouzeix-Raviart's nonconforming P1 element of Section 4.2
-/// of [SR04] (cited in problem/variational_inequality.hpp), with its unknowns at edge midpoints.
-/// The last one is P1 with a bubble per triangle, which is P1 on every edge.
+/// The elements. Each is one instance that lives as long as the program. P1 to P4 are conforming.
+/// From P2 on the contact condition holds only at the unknowns on Gamma_C, the contact boundary, so
+/// K_h, the admissible set of the discrete problem, is not a subset of K. CR is Crouzeix-Raviart's
+/// nonconforming P1 element of Section 4.2 of [SR04] (cited in problem/variational_inequality.hpp),
+/// with its unknowns at edge midpoints. p1_bubble is P1 with a bubble per triangle. Its functions
+/// are affine on every edge.
 const Element& p1();
 const Element& p2();
 const Element& p3();

@@ -7,10 +7,11 @@ namespace antilock {
 enum class ShearRule { exact, mean, edges };
 
 /// The space of a plate: a deflection w and a rotation theta = (theta_x, theta_y) on one mesh, and
-/// the rule of their shear. With ShearRule::edges the rotation has one unknown more per edge, with
-/// the basis function 6 lambda_j lambda_k times the unit tangent from the smaller vertex number to
-/// the larger, whose mean on the edge is 1 (R. Duran and E. Liberman, Math. Comp. 58, 1992). The N
-/// unknowns are those of w, theta_x, theta_y and the edges, in this order.
+/// the rule of their shear. With ShearRule::edges the rotation has one additional unknown per edge.
+/// Its basis function is 6 lambda_j lambda_k times the unit tangent from the smaller vertex number
+/// to the larger one. The tangential component has the mean 1 on the edge (R. Duran and E.
+/// Liberman, Math. Comp. 58, 1992). The N unknowns are those of w, theta_x, theta_y and the edges,
+/// in this order.
 struct PlateSpace {
   Space deflection;
   VectorSpace rotation;
