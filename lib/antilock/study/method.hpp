@@ -7,19 +7,20 @@
 
 namespace antilock {
 
-/// A method of the paper's Section 4: an element on a family of meshes.
+/// A method as in Section 4 of [SR04] (cited in problem/variational_inequality.hpp): an element on
+/// a family of meshes.
 struct Method {
   const Element* element;
   MeshFamily family;
 
   std::string name() const { return element->name() + " " + family.name; }  ///< "P1 structured"
   TriangleMesh mesh(int cells) const { return family.mesh(cells); }
-  /// The space of this element on the mesh with so many cells.
+  /// Returns the space of this element on the mesh of the family with this number of cells.
   Space space(int cells) const { return Space(mesh(cells), *element); }
 };
 
-/// Every element on every family, elements first: without arguments four methods (the caption of Figure 9 counts
-/// three).
+/// Returns all pairs of an element and a family, ordered by elements. Without arguments these are
+/// four methods (the caption of Figure 9 of [SR04] counts three).
 inline std::vector<Method> methods(const std::vector<const Element*>& elements = {&p1(), &crouzeix_raviart()},
                                    const std::vector<MeshFamily>& families = {structured(), unstructured()}) {
   std::vector<Method> all;

@@ -5,15 +5,19 @@
 
 namespace antilock {
 
-/// One scene on one mesh, asked again and again with another epsilon or load: a Sweep in the scene's own words.
+/// A Sweep for a scene: it solves one scene on one mesh for several values of epsilon, and for
+/// several loads.
 class SceneSweep : public Sweep {
  public:
-  /// Assembles; throws Error as `assemble` does.
+  /// Assembles the problem. Throws Error as `assemble` does.
   SceneSweep(const Scene& scene, const Space& space);
 
-  /// Another thickness of a scaled layer, 0 to 1. Throws Error for another layer: it holds none, or in its mesh.
+  /// Sets the thickness epsilon of a scaled layer, 0 to 1. Throws Error for any other layer, and
+  /// for a layer along the normals of a curve, because epsilon is a part of their forms or of the
+  /// mesh, or is absent.
   void set_epsilon(double epsilon);
-  /// Another load of the body; what pulls at edges and layer stays. Throws Error for an empty f.
+  /// Sets the load f of the body. The loads on edges and on the layer stay. Throws Error for an
+  /// empty f.
   void set_load(const Field& f);
 
  private:

@@ -6,32 +6,39 @@
 
 namespace antilock {
 
-/// One pair (A1, B) asked again and again with another compliance, load or bound. What does not change is done once:
-/// - the forms a1 and a0 hold no compliance: whoever filled the problem assembled them once for all questions;
-/// - all loads, all bounds and every compliance below the penalty delta of the factor share one factorisation;
-/// - the contact set of one answer starts the search for the next.
-/// Any problem of the class can be swept: the layer, the beam, rubber, one's own. SceneSweep does it for a scene.
+/// Solves problems with one pair (A1, B) and with several compliances, loads or bounds. Work on the
+/// constant parts is done once:
+/// - The forms a1 and a0 do not contain the compliance. So they are assembled once, before the
+///   sweep.
+/// - All loads, all bounds and all compliances that lead to the same penalty delta share one
+///   factorisation.
+/// - Each solve starts from the contact set of the solve before.
+///
+/// The problem may be any one of the class. SceneSweep does the same for a scene.
 class Sweep {
  public:
   /// Throws Error as `check` does.
   explicit Sweep(VariationalInequality problem);
 
-  /// Another value of the class parameter, 0 to 1. Throws Error where nothing is stiff (B has no rows).
+  /// Sets the class parameter, 0 to 1. Throws Error if nothing is stiff (B has no rows).
   void set_compliance(double compliance);
-  /// N entries, one per unknown.
+  /// Sets the load, N entries, one per unknown. Throws Error for another size, and for entries that
+  /// are not finite.
   void set_load(Eigen::VectorXd load);
-  /// C entries, one per contact unknown; `upper` as in the problem, empty: as it was. Throws Error where there is no
-  /// contact, and as `check` does.
+  /// Sets the bounds, C entries each as in the problem. Without `upper` the upper bounds stay.
+  /// Throws Error if no unknown is bounded, and as check_bounds does.
   void set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upper = {});
-  /// C entries, or none, as in the problem. Throws Error as `check` does.
+  /// Sets the force limits, C entries or none, as in the problem. Throws Error as check_bounds
+  /// does.
   void set_force_limit(Eigen::VectorXd force_limit);
 
-  /// The answer, its counters saying what this question cost beyond the ones before. The road is that of the first one.
+  /// Returns the solution. Its counters contain the operations of this solve only. Every solve uses
+  /// the ContactReduction of the first one.
   Solution solve(ActiveSetOptions options = {});
 
   const VariationalInequality& problem() const { return problem_; }
-  const Counters& total() const { return total_; }  ///< of all answers so far
-  /// The factor of the answers so far, with its delta; throws Error before the first.
+  const Counters& total() const { return total_; }  ///< of all solves so far
+  /// Returns the factor of the last solve, with its delta. Throws Error before the first solve.
   const PenalisedCholesky& factor() const;
 
  protected:
@@ -39,7 +46,7 @@ class Sweep {
 
  private:
   std::optional<PenalisedCholesky> factor_;
-  double asked_ = 0;  ///< the delta that the factor was asked for last
+  double asked_ = 0;  ///< the delta that the last solve requested
   std::optional<BoundStatuses> status_;
   Counters total_;
 };

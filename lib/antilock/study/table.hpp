@@ -18,63 +18,73 @@ class TableEntry {
 
   bool is_number() const { return std::holds_alternative<double>(value_); }
   double number() const { return std::get<double>(value_); }
-  /// A number as the shortest text that reads back as the same double, or rounded to `digits` (whole numbers
-  /// below 1e9 are not).
+  /// Returns the word, or the number as the shortest text that reads back as the same double. With
+  /// `digits` a number is rounded to that many digits, except for whole numbers below 1e9.
   std::string text(int digits = 0) const;
-  bool operator==(const TableEntry&) const = default;  ///< of numbers: the same double
+  /// Numbers are equal if they are the same double.
+  bool operator==(const TableEntry&) const = default;
 
  private:
   std::variant<double, std::string> value_;
 };
 
-/// The results of a study: named columns, one row per run. What is asked of it is asked by name, never by position.
-/// Every function throws Error for a column that the table does not have, with the names of those that it has.
+/// The results of a study: named columns, one row per run. Entries are accessed by the names of
+/// columns, not by positions. Every function throws Error for a column that the table does not
+/// have, with the names of its columns.
 class Table {
  public:
-  /// Throws Error for a name that comes twice.
+  /// Throws Error for a name that occurs twice.
   explicit Table(std::vector<std::string> columns);
 
   /// Throws Error unless there is one entry per column.
   void add(std::vector<TableEntry> row);
-  /// Adds the rows of a table with the same columns, else throws Error.
+  /// Adds the rows of a table. Throws Error unless it has the same columns.
   void add(const Table& other);
   int size() const { return static_cast<int>(rows_.size()); }  ///< rows
   const std::vector<std::string>& columns() const { return columns_; }
 
-  /// The rows that hold `value` in this column, in their order; those whose number there satisfies `holds`.
+  /// Each returns a part of the rows, in their order: those with `value` in this column, and those
+  /// whose number in this column satisfies `holds`. filter_number throws Error for a column with
+  /// words.
   Table filter(const std::string& column, const TableEntry& value) const;
   Table filter_number(const std::string& column, const std::function<bool(double)>& holds) const;
-  /// Each row as a table of its own.
+  /// Returns each row as a table with one row.
   std::vector<Table> rows() const;
-  /// One column: its entries; the different ones, in the order in which they occur; its numbers.
+  /// Return one column: all entries, the different entries in the order in which they occur first,
+  /// and all entries as numbers. `numbers` throws Error for a word.
   std::vector<TableEntry> entries(const std::string& column) const;
   std::vector<TableEntry> unique(const std::string& column) const;
   std::vector<double> numbers(const std::string& column) const;
-  /// The entry, or the number, in the one row of a table; throws Error where there are more or none.
+  /// Return the entry, or the number, of a table with one row. Throw Error if there are more rows
+  /// or none.
   TableEntry entry(const std::string& column) const;
   double number(const std::string& column) const;
-  /// The smallest, the largest (NaN where an entry is NaN), the first and the last number of a column. Throws Error for
-  /// a table without rows.
+  /// Return the smallest, the largest, the first and the last number of a column. `min` and `max`
+  /// are NaN if an entry is NaN. Throw Error for a table without rows.
   double min(const std::string& column) const;
   double max(const std::string& column) const;
   double first(const std::string& column) const;
   double last(const std::string& column) const;
-  /// The order of convergence: least-squares slope of log(y) against log(x). Throws Error where there are fewer than
-  /// two different x, or a number is not positive.
+  /// Returns the order of convergence, the least-squares slope of log(y) against log(x). Throws
+  /// Error where there are fewer than two different x, or a number is not positive.
   double order(const std::string& y, const std::string& x) const;
-  /// The same between each two rows that follow each other. Throws Error as `order` does, and for two rows of one x.
+  /// Returns the same for each pair of successive rows. Throws Error as `order` does, and for
+  /// successive rows with the same x.
   std::vector<double> pairwise_orders(const std::string& y, const std::string& x) const;
-  /// One row per different entry of `rows`, one column per different entry of `across`, filled with `value`: a table of
-  /// an error against h and epsilon. Throws Error where a place is filled twice; an empty place holds no text.
+  /// Returns a table with one row per different entry of `rows` and one column per different entry
+  /// of `across`. Its entries are those of `value`, for example an error against h and epsilon. An
+  /// entry without a value is an empty word. Throws Error if an entry has two values.
   Table pivot(const std::string& rows, const std::string& across, const std::string& value) const;
-  /// These columns alone, in this order.
+  /// Returns a table with only these columns, in this order.
   Table select(const std::vector<std::string>& columns) const;
 
-  /// Aligned columns, words to the left, numbers to the right and rounded to `digits`; `print` puts them on standard
-  /// output between two empty lines.
+  /// Returns the table as text in aligned columns. Columns of words are aligned to the left,
+  /// columns with numbers to the right, and numbers are rounded to `digits`. `print` writes this
+  /// text to standard output between two empty lines.
   std::string text(int digits = 4) const;
   void print(const std::string& title = "", int digits = 4) const;
-  /// CSV, whole or not at all: a header, then the rows; a word that holds a comma or a quotation mark is quoted.
+  /// Writes a CSV file: a header, then the rows. A word with a comma, a quotation mark or a line
+  /// break is quoted. If the writing fails, no part of the file is left.
   void write(const std::filesystem::path& path) const;
 
  private:
