@@ -19,12 +19,14 @@ namespace antilock {
 ///
 ///     int u_s^2 / J + t^-2 J u_d^2 ds dd.
 ///
-/// The mesh draws it straight down, the point (s, d) at (x, y - d) where gamma(s) = (x, y), so that x means the same on
-/// Sigma and on Gamma_C. Below an edge of slope m: d_s = (d_x + m d_y) / (1 + m^2)^(1/2), d_d = -d_y, ds dd =
-/// (1 + m^2)^(1/2) dx dy. Gamma_C has the lengths of Sigma. The curvature of a polygon: at a vertex its turn over the
-/// mean length of the two edges, on an edge the mean of its ends (`bend`). Throws Error for a vertical edge, for one
-/// without the body above it, for an x that Sigma has twice, where a displacement is given at an end of Sigma, and
-/// where t reaches the radius of a hollow: there the normals meet.
+/// The mesh draws it straight down, the point (s, d) at (x, y - d) where gamma(s) = (x, y), so that
+/// x means the same on Sigma and on Gamma_C. Below an edge of slope m: d_s = (d_x + m d_y) / (1 +
+/// m^2)^(1/2), d_d = -d_y, ds dd = (1 + m^2)^(1/2) dx dy. Gamma_C has the lengths of Sigma. The
+/// curvature of a polygon at a vertex is the angle by which it turns there, divided by the mean
+/// length of the two edges. On an edge it is the mean of the curvatures at its ends
+/// (`curved_columns`). Throws Error for a vertical edge, for one without the body above it, for an
+/// x that Sigma has twice, where a displacement is given at an end of Sigma, and where t reaches
+/// the radius of a hollow: there the normals meet.
 TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_normals = false);
 
 /// The mesh's vertices, with a layer along the normals where those are, drawn as thick as a tenth of the width of all,
