@@ -10,59 +10,80 @@
 namespace antilock {
 
 using Field = std::function<double(double x, double y)>;  ///< a scalar field (dimensionless)
-using Profile = std::function<double(double x)>;          ///< a function on the line y = const (dimensionless)
+/// A function on the line y = const (dimensionless).
+using Profile = std::function<double(double x)>;
 
-/// The elastic body Omega+ = (0,1) x (0,1), clamped on its sides and its top, under the body force f of (21).
+/// The elastic body Omega+ = (0,1) x (0,1) under the body force f of (21) of [SR04], which is cited
+/// in problem/variational_inequality.hpp. It is clamped on its sides and its top. A mesh file may
+/// give it another shape.
 struct Body {
   Field load;
-  Field stiffness = {};  ///< positive, constant on each triangle: taken at its centroid; empty: 1
+  /// Positive, constant on each triangle: the value at its centroid; empty: 1.
+  Field stiffness = {};
 };
 
-/// What holds on the edges of a named group of a mesh file: the outward derivative of u times the stiffness is 0 (free), g
-/// (traction) or -k u (spring, k >= 0), or u itself is given (displacement).
+/// The boundary condition on the edges of a named group of a mesh file, with du/dn the outward
+/// derivative of u and g = `value`:
+///
+///     free           stiffness du/dn = 0
+///     displacement   u = g
+///     traction       stiffness du/dn = g
+///     spring         stiffness du/dn = -g u,  g >= 0
 struct BoundaryCondition {
   enum class Kind { free, displacement, traction, spring };
   std::string group;
   Kind kind = Kind::free;
-  Field value = {};
+  Field value = {};  ///< g(x, y); needed for each kind except free
 };
 
-/// An effect of a scene is a type; an effect that is absent brings no mesh, no unknown and no iteration.
-struct NoLayer {};  ///< the body alone; contact, if any, on Sigma (y = 0)
-/// The stiff layer after the change of variable, (23), on (0,1) x (-1,0).
+// Each effect of a scene is a type of its own. An effect that is absent adds no mesh, no unknown
+// and no iteration.
+
+/// The body alone. A contact, if there is one, is on Sigma, the lower side of the body (y = 0).
+struct NoLayer {};
+/// The stiff layer below Sigma after the change of variable, (23) of [SR04], on (0,1) x (-1,0).
 struct StiffLayer {
-  double epsilon;  ///< 0 <= epsilon <= 1: its thickness; exactly 0 is the limit problem (24) on the same mesh
-  /// s > 0, stiffness times thickness, relative to the body: s stands before a_x^-, s / epsilon^2 before a_y^-
+  /// The thickness of the layer, 0 <= epsilon <= 1. 0 is the limit problem (24) on the same mesh.
+  double epsilon;
+  /// Stiffness times thickness of the layer, relative to the body; s > 0. The form a_x^- of (23)
+  /// has the factor s, and a_y^- the factor s / epsilon^2.
   double s = 1;
   Field load = {};  ///< a body force on the stretched layer; empty: none
 };
-/// The layer replaced by its limit (25): a second-derivative term on Sigma, no layer mesh.
+/// The limit (25) of the layer: a second-derivative term on Sigma and no layer mesh.
 struct VentcelLayer {};
 /// The layer before the change of variable, (22), on (0,1) x (-epsilon,0).
 struct ThinLayer {
-  double epsilon;  ///< 1e-3 <= epsilon <= 1: below, the mesh of the true layer outgrows any use
+  /// 1e-3 <= epsilon <= 1, because the mesh of a thinner layer has too many triangles.
+  double epsilon;
 };
 using Layer = std::variant<NoLayer, StiffLayer, VentcelLayer, ThinLayer>;
 
-/// Signorini contact on Gamma_C, the last line of (21): u >= -gap, pressure >= 0, complementary.
+/// Signorini contact on Gamma_C, the bottom of the layer or, without a layer, Sigma. It is the last
+/// line of (21): u >= -gap, pressure >= 0, and one of the two is an equality.
 struct UnilateralContact {
-  Profile gap = [](double) { return 0.0; };  ///< distance of the obstacle at x (negative: it presses in)
-  std::vector<double> zero_at = {0, 1};  ///< where beside Gamma_C u = 0 is prescribed: gap, upper_obstacle >= 0 there
-  Profile upper_obstacle = {};           ///< u <= upper_obstacle, too (a double obstacle problem); empty: none
+  /// The distance of the obstacle at x. A negative one presses the obstacle into the body.
+  Profile gap = [](double) { return 0.0; };
+  /// The x at which u = 0 is prescribed at the ends of Gamma_C. There gap and upper_obstacle must
+  /// be >= 0.
+  std::vector<double> zero_at = {0, 1};
+  /// A second bound, u <= upper_obstacle (a double obstacle problem); empty: none.
+  Profile upper_obstacle = {};
 };
 
-/// An obstacle that no displacement keeps to, at some x.
+/// Thrown where no displacement satisfies the obstacle at some x.
 struct ObstacleError : Error {
   enum class Obstacle { gap, ceiling };
   ObstacleError(Obstacle which, const std::string& message) : Error(message), which(which) {}
-  Obstacle which;  ///< that at fault
+  Obstacle which;  ///< the obstacle with the error
 };
 
-/// Throws ObstacleError where the upper obstacle is below the lower one at x: no u satisfies -gap(x) <= u <= upper_obstacle(x).
+/// Throws ObstacleError where the upper obstacle is below the lower one at x, so that no u
+/// satisfies -gap(x) <= u <= upper_obstacle(x).
 void check_upper_obstacle(const UnilateralContact& contact, double x);
 
-/// A scene (the description of a problem): a body, a layer or none, contact or not.
-/// Construction throws Error where the combination is meaningless, with the reason.
+/// The description of a problem: a body, at most one layer, and at most one contact. Construction
+/// throws Error, with the reason, where the combination is meaningless.
 class Scene {
  public:
   explicit Scene(Body body, Layer layer = NoLayer{}, std::optional<UnilateralContact> contact = std::nullopt,
@@ -71,17 +92,19 @@ class Scene {
   const Body& body() const { return body_; }
   const Layer& layer() const { return layer_; }
   const std::optional<UnilateralContact>& contact() const { return contact_; }
-  /// Of the groups of its mesh (natural_group, dirichlet_group), in their order.
+  /// The conditions on the named groups of its mesh, in the order of the groups (natural_group,
+  /// dirichlet_group).
   const std::vector<BoundaryCondition>& edges() const { return edges_; }
-  /// What goes beyond the paper's problem, in words, and what of it the certificate has no proof for; empty where nothing
-  /// does.
+  /// beyond_the_paper names a feature that the problem of [SR04] does not have, and
+  /// beyond_the_certificate a feature that the certificate does not cover. Each returns an empty
+  /// text if there is none.
   std::string beyond_the_paper() const;
   std::string beyond_the_certificate() const;
-  /// Depth of the layer's mesh below Sigma: 0 (no mesh), 1 (scaled) or epsilon (thin).
+  /// The depth of the layer's mesh below Sigma: 0 (no mesh), 1 (scaled) or epsilon (thin).
   double layer_depth() const;
-  /// The paper's epsilon; empty without a layer (0 for Ventcel).
+  /// The epsilon of [SR04]: empty without a layer, 0 for Ventcel.
   std::optional<double> epsilon() const;
-  /// Names of the effects present, of "layer" and "contact".
+  /// Returns "layer" if there is a layer, and "contact" if there is contact.
   std::vector<std::string> effects() const;
 
  private:
@@ -91,7 +114,7 @@ class Scene {
   std::vector<BoundaryCondition> edges_;
 };
 
-/// The load of every figure here, f = 10 sin(2 pi x); the paper gives none.
+/// The load of all figures of this project, f = 10 sin(2 pi x). [SR04] does not state its load.
 double paper_load(double x, double y);
 
 }  // namespace antilock
