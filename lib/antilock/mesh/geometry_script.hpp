@@ -4,29 +4,31 @@
 
 namespace antilock {
 
-/// The part of a .geo script that draws, in the words of a language without side effects: gmsh
-/// reads it in place of the file. A .geo script is a program: it may run commands of the machine,
-/// and read and write files. Nobody expects that of a drawing, so that gmsh never sees the text
-/// itself.
+/// Returns the drawing commands of a .geo script in a language without side effects, which gmsh
+/// reads in place of the file. A .geo script is a program: it may run commands of the machine, and
+/// read and write files. A user does not expect this of a drawing. Therefore gmsh never reads the
+/// text itself.
 ///
-/// What is returned consists of numbers, of signs, of words from a list of commands that draw, and
-/// of variables, which are called v_1, v_2, ... in place of their names. The only texts in quotation
-/// marks are "OpenCASCADE" and "Built-in". So no word of the file's own choice reaches gmsh, and
-/// whatever the order of its words, it can name no file and start no program. Tokens keep their lines, so that gmsh's own messages name the
-/// right one.
+/// The returned text consists of numbers, signs, words from a list of drawing commands, and
+/// variables, which are called v_1, v_2, ... in place of their names. The only texts in quotation
+/// marks are "OpenCASCADE" and "Built-in". So every word that gmsh reads comes from this library,
+/// and in whatever order the words are, they can name no file and start no program. Tokens keep
+/// their lines, so that the messages of gmsh name the right line.
 ///
-/// An index outside of 0 to 1e6 becomes a division by zero, which gmsh reports: gmsh itself would
-/// write before its list.
+/// An index outside of 0 to 1e6 is replaced by a division by zero, which gmsh reports, because gmsh
+/// would write outside of its list.
 ///
-/// Left out are comments and the statements that concern the mesh alone: Mesh, Physical, Field,
-/// Characteristic Length, Transfinite and the like, and Printf without a file; in them nothing is accepted that
-/// draws or assigns, and no number is accepted that counts them. Accepted beyond
-/// that: variables, lists, For, DefineConstant, arithmetic, points, curves, surfaces, solids,
-/// transformations, Boolean operations and numbers of Geometry. Throws Error, `line N: NAME: ...`,
-/// for anything else.
+/// Comments are left out. Statements that concern the mesh alone are left out, too: Mesh, Physical,
+/// Field, Characteristic Length, Transfinite and the like, and Printf without a file. They may not
+/// contain a command that draws, or change a variable. Numbers that depend on the statements left
+/// out are refused, for example newl behind a Physical group. Accepted beyond that: variables,
+/// lists, For, DefineConstant, arithmetic, points, curves, surfaces, solids, transformations,
+/// Boolean operations and numbers of Geometry. Throws Error, `line N: NAME: ...`, for anything
+/// else.
 std::string geometry_script(const std::string& text);
 
-/// The words that geometry_script may write beside numbers, signs, kernels and variables.
+/// Returns the words that geometry_script may write, except for numbers, signs, kernels and
+/// variables.
 std::vector<std::string> geometry_script_commands();
 
 }  // namespace antilock

@@ -5,18 +5,22 @@
 
 namespace antilock {
 
-/// The number of a tag's physical group in MSH and FreeFEM files: sigma 3, clamped 4, contact 5, free 6, a named group
-/// k 10 + k, with Dirichlet data 1000 + k. From k = 990 on 1000 + k without them, too: each k is one group, so that no
-/// two groups have one number. 0 for interior.
+/// Returns the number of the physical group of a tag in MSH and FreeFEM files:
+///
+///     interior 0, sigma 3, clamped 4, contact 5, free 6,
+///     named group k: 10 + k without Dirichlet data, 1000 + k with them
+///
+/// From k = 990 on it is 1000 + k also without Dirichlet data, because 10 + k could be the number
+/// of another group.
 int physical_number(EdgeTag tag);
 
-/// An edge that carries a group, its vertices in the order of its first triangle: the domain lies on the left of a
-/// boundary edge.
+/// An edge that carries a group. Its vertices are in the order of its first triangle, so that the
+/// domain lies on the left of a boundary edge.
 struct Labelled {
   int from, to, label;
 };
 
-/// All edges that are not interior, in the order of their numbers.
+/// Returns all edges that are not interior, in the order of their numbers.
 std::vector<Labelled> labelled_edges(const TriangleMesh& mesh);
 
 }  // namespace antilock

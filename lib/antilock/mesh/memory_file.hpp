@@ -3,8 +3,8 @@
 
 namespace antilock {
 
-/// A text that has the path of a file, and is in no folder: nobody else can change it, nothing lies
-/// beside it, and it is gone with this object or with the process, however that ends.
+/// A file in memory: it has a path, but is in no folder. So no other program finds it by a name in
+/// a folder. It ends with this object or with the process.
 class MemoryFile {
  public:
   /// Throws MeshError where the system has no memory for it.
@@ -13,7 +13,7 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
-  /// For this process alone.
+  /// The path is valid in this process only.
   std::string path() const;
 
  private:

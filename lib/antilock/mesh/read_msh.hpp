@@ -8,16 +8,18 @@
 
 namespace antilock {
 
-/// Reads MSH 2.2 or 4.1 (ASCII) with the physical groups body, clamped, contact and, with a layer, layer and sigma
-/// (sigma may be left out: it is where body meets layer). Throws Error or MeshError, `name` first, for a file that is missing,
-/// binary, truncated, of another version, with other elements than points, lines and triangles, with unknown or
-/// missing groups, or that make_triangle_mesh refuses.
-/// `more` groups are accepted beside these: curves with their tags, after which no edge need be clamped, and surfaces,
-/// which are parts of the body; `part` is filled with the place in `bodies` of each triangle, -1 for none.
+/// Groups that read_msh accepts beside the usual ones: curves with their tags, and surfaces, which
+/// are parts of the body. With such curves no edge needs to be clamped.
 struct ExtraGroups {
   std::map<std::string, EdgeTag> curves = {};
   std::vector<std::string> bodies = {};
 };
+/// Reads a file of MSH 2.2 or 4.1 (ASCII) with the physical groups body, clamped, contact and, with
+/// a layer, layer and sigma. The group sigma may be absent: it is where body meets layer. `part`
+/// receives for each triangle the index of its group in `more.bodies`, or -1. Throws Error or
+/// MeshError, `name` first, for a file that is missing, binary, truncated or of another version,
+/// for other elements than points, lines and triangles, for unknown or missing groups, and where
+/// make_triangle_mesh throws.
 TriangleMesh read_msh(const std::string& path, const ExtraGroups& more = {}, std::vector<int>* part = nullptr);
 TriangleMesh read_msh(std::istream& in, const std::string& name, const ExtraGroups& more = {},
                       std::vector<int>* part = nullptr);

@@ -6,14 +6,14 @@
 
 namespace antilock {
 
-/// A submesh: some triangles of a mesh, with the old numbers of its vertices. Where the mesh is cut it is
-/// clamped, and Sigma is contact.
+/// A submesh: some triangles of a mesh, with the old numbers of its vertices. The edges where the
+/// mesh is cut are clamped, and Sigma, the edges between body and layer, are contact.
 struct Submesh {
   TriangleMesh mesh;
   std::vector<int> old_vertex;
 };
 Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)>& selected);
-/// The body alone; a mesh without a layer as it is.
+/// Returns the mesh of the body alone; a mesh without a layer is returned unchanged.
 TriangleMesh body_submesh(const TriangleMesh& mesh);
 
 }  // namespace antilock

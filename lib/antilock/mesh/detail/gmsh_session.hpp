@@ -11,13 +11,15 @@
 
 namespace antilock {
 
-/// gmsh's one global model, from its initialisation to its end, whatever is thrown in between. The library of gmsh is
-/// loaded when the first session starts, not when a program does: with all that it needs (93 libraries) that takes 0.1
-/// s, and most programs never ask for an unstructured mesh. Its C functions are called, which have no mangled names.
+/// The one global model of gmsh, from its initialisation to its end, whatever is thrown in between.
+/// The library of gmsh is loaded when the first session starts, not when a program starts. With the
+/// 93 libraries that it needs this takes 0.1 s, and most programs never need an unstructured mesh.
+/// The C functions of gmsh are called, because their names are not mangled.
 ///
-/// gmsh has one model and one set of options per process. A session of another thread waits until this one has ended.
-/// The process keeps its locale and its environment. Where its program uses gmsh itself, from this thread, its models
-/// and options are the same after the session as before.
+/// gmsh has one model and one set of options per process. Therefore a session of another thread
+/// waits until this one has ended. The process keeps its locale and its environment. If the program
+/// uses gmsh itself, from this thread, its models and options are the same after the session as
+/// before.
 class GmshSession {
  public:
   /// Throws Error where gmsh's library cannot be loaded.
@@ -26,9 +28,9 @@ class GmshSession {
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
 
-  /// Calls one of gmshc.h's functions by its type and its name, with all its arguments but the last one (int* ierr):
-  /// `gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2)`. Throws Error where gmsh reports a
-  /// failure.
+  /// Calls a function of gmshc.h by its type and its name, with all its arguments except for the
+  /// last one (int* ierr): `gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate",
+  /// 2)`. Throws Error where gmsh reports a failure.
   template <class Function, class... Arguments>
   auto call(const char* name, Arguments... arguments) const {
     auto* const function = reinterpret_cast<Function*>(symbol(name));
@@ -44,22 +46,23 @@ class GmshSession {
   }
 
   void set(const char* option, double value);
-  /// A point at (x, y) around which edges are `size` long; its tag.
+  /// Adds a point at (x, y) around which edges are `size` long. Returns its tag.
   int add_point(double x, double y, double size) const;
-  /// A line between two points; its tag.
+  /// Adds a line between two points. Returns its tag.
   int add_line(int from, int to) const;
-  /// A plane surface inside four lines that follow each other, -line for one that is run through backwards.
+  /// Adds a plane surface inside four lines that follow each other; a line in the opposite
+  /// direction is given as -line.
   void add_surface(std::array<int, 4> lines) const;
-  /// Makes triangles of the geometry, surface by surface.
+  /// Makes the triangles of the geometry, surface by surface. Returns their vertices and corners.
   std::pair<Points, Triples> generate() const;
 
-  /// The tags of a geometry's curves. Throws Error where gmsh cannot read it.
+  /// Returns the tags of the curves of a geometry. Throws Error where gmsh cannot read it.
   std::vector<int> read_curves(const Geometry& geometry);
-  /// The points of a curve that are nearest to some points, three coordinates each.
+  /// Returns the points of a curve that are nearest to the given points, three coordinates each.
   std::vector<double> nearest(int curve, std::vector<double> xyz) const;
 
  private:
-  /// The session's turn, and the locale that its thread has afterwards.
+  /// Excludes sessions of other threads, and restores the locale of the thread at its end.
   struct Turn {
     Turn();
     ~Turn();
@@ -71,7 +74,7 @@ class GmshSession {
 
   void read(const Geometry& geometry);
   static void* symbol(const char* name);
-  /// The name of gmsh's current model; empty where gmsh is not initialised.
+  /// Returns the name of the current model of gmsh; empty where gmsh is not initialised.
   static std::optional<std::string> current_model();
   void check(int failed, const char* name) const;
 
