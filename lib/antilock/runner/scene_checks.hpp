@@ -8,33 +8,43 @@
 
 namespace antilock {
 
-/// Asks for the load at vertices and edges of a mesh from a file, and for the gap along Gamma_C: what has no value
-/// there throws, and so does a gap that presses in where Gamma_C meets clamped edges. Throws Error, `FILE: KEY: ...`.
+/// Evaluates the load at the vertices and edge midpoints of the body, and the bounds gap and
+/// ceiling along Gamma_C, the contact boundary. Throws Error, `FILE: KEY: ...`, where one of them
+/// has no finite value, where the ceiling is below the obstacle, and where a displacement
+/// prescribed at a vertex of Gamma_C violates one of the two bounds.
 void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh);
 
-/// Empty, or a line about a load that the quadrature does not see as it is: its integrals of f, x f and y f over the
-/// body are compared with those of a quarter of a million points (or more) spread over all triangles; off by more than
-/// a twentieth of the integral of |f|, they are named. A spike narrower than that remains unseen.
+/// Returns a warning if the quadrature misses a part of the load f, else an empty text. The
+/// integrals of f, x f and y f over the body are compared with those of at least 250,000 points
+/// spread over all triangles. The warning names an integral that differs by more than a twentieth
+/// of the integral of its absolute value. There is a warning, too, if a quarter of the integral of
+/// |f| lies between the points of the quadrature. A spike between all of these points is not
+/// detected.
 std::string load_warning(const SceneFile& file, const Space& space, const VariationalInequality& problem);
 
-/// Empty, or a line about displacements that jump: two groups of edges that meet with different values, or a formula.
-/// No function of finite energy has them: with h the energy grows like |log h|.
+/// Returns a warning if prescribed displacements jump, else an empty text: where two groups of
+/// edges meet with different values, or within a formula. No function of finite energy has such a
+/// jump: the energy of u_h grows like |log h| as h tends to 0.
 std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh);
 
-/// Empty, or a line about a boundary of a mesh from a file that looks like a curve: at six vertices or more it turns by
-/// an angle up to that of a regular octagon. What is proved is proved of the polygon.
+/// Returns a warning if the boundary of a mesh from a file looks like a curve, else an empty text.
+/// It does if its direction changes at six vertices or more by an angle of at most 45 degrees, that
+/// of a regular octagon. Bounds of the certificate are bounds for the polygon.
 std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh);
 
-/// Empty, or a line about a .geo or .brep file that has the name of the mesh file and that the scene does not name: the
-/// mesh is refined without it.
+/// Returns a warning if a refined mesh file has a .geo or .brep file of the same name that the
+/// scene does not name, else an empty text. The mesh is refined without this file.
 std::string geometry_warning(const SceneFile& file);
 
-/// Empty, or a line about an obstacle that is missed between the contact unknowns: the largest depth to which u_h sinks
-/// into it, looked for at a hundred thousand places of Gamma_C, if above a twentieth of max |u_h|.
+/// Returns a warning if u_h violates a bound of the contact between its contact unknowns by more
+/// than a twentieth of max |u_h|, else an empty text. It names the largest violation at about a
+/// hundred thousand points of Gamma_C.
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution);
 
-/// Empty, or a line about a layer without a load in which u_h of Crouzeix-Raviart leaves the range of the values around it
-/// by more than a twentieth of max |u_h|: no exact solution does, by the maximum principle.
+/// Returns a warning if the Crouzeix-Raviart u_h in the layer is larger than the largest, or
+/// smaller than the smallest, value on the boundary of the layer by more than a twentieth of max
+/// |u_h|, else an empty text. By the maximum principle the exact solution is not, if the layer has
+/// no load. Layers with a considerable load are not checked.
 std::string range_warning(const SceneFile& file, const Space& space, const Solution& solution);
 
 }  // namespace antilock

@@ -10,55 +10,68 @@
 
 namespace antilock {
 
-/// The mesh that a scene file asks for.
+/// The mesh that a scene file requests.
 struct MeshRequest {
-  std::string kind;                     ///< "structured", "unstructured", "layered" or "file"
-  int cells = 0;                        ///< cells per unit side; 0 with a file
-  std::filesystem::path file;           ///< beside the scene file, unless absolute
-  int refinements = 0;                  ///< how often every triangle is then cut into four
-  std::filesystem::path geometry = {};  ///< of a mesh file: the .geo or .brep file to whose curves refinement returns
+  std::string kind;            ///< "structured", "unstructured", "layered" or "file"
+  int cells = 0;               ///< cells per unit side; 0 with a file
+  std::filesystem::path file;  ///< relative to the folder of the scene file, unless absolute
+  /// How many times every triangle is then cut into four.
+  int refinements = 0;
+  /// With a mesh file: the .geo or .brep file whose curves the refined boundary follows.
+  std::filesystem::path geometry = {};
   bool from_file() const { return kind == "file"; }
 };
 
-/// How a scene file wants to be solved.
+/// The section [method] of a scene file.
 struct MethodRequest {
-  static constexpr double roughest_tolerance = 1e-3;  ///< beyond, the answer says less than any mesh does
-  static constexpr double finest_tolerance = 1e-14;   ///< below, no double can be promised
-  std::string element = "P1";                         ///< "P1" to "P4" or "CR"
-  std::string solver = "active-set";                  ///< "active-set", "uzawa" or "petsc"
-  double tolerance = 1e-10;  ///< relative, on the algebraic error; 0 < tolerance <= roughest_tolerance
-  std::optional<double>
-      accuracy;  ///< proved relative error asked for, in (0, 1); the element is CR unless P1 or P2 is named
+  /// The largest accepted tolerance. Above, the algebraic error would exceed discretisation errors.
+  static constexpr double roughest_tolerance = 1e-3;
+  /// The smallest tolerance that is reached. Below, double precision does not suffice.
+  static constexpr double finest_tolerance = 1e-14;
+  std::string element = "P1";         ///< "P1" to "P4" or "CR"
+  std::string solver = "active-set";  ///< "active-set", "uzawa" or "petsc"
+  /// The relative tolerance of the algebraic error, 0 < tolerance <= roughest_tolerance.
+  double tolerance = 1e-10;
+  /// The relative error that is to be proved, in (0, 1). The element is then CR, unless P1 or P2 is
+  /// named.
+  std::optional<double> accuracy;
+  /// The quantity whose error `accuracy` bounds.
   Quantity of = Quantity::displacement;
-  double most_unknowns = 2e6;  ///< with accuracy: the limit
+  /// The limit of the number of unknowns, with accuracy.
+  double most_unknowns = 2e6;
 };
 
-/// A question asked in TOML (tutorials/scenes holds examples, run_scene --help lists the keys).
+/// The contents of a scene file in TOML (tutorials/scenes has examples, run_scene --help lists the
+/// keys).
 struct SceneFile {
-  std::string name;  ///< the path as it was given: every message starts with it
+  std::string name;  ///< the path as it was given; it is the beginning of every message
   std::string title;
   Scene scene;
   MeshRequest mesh;
   MethodRequest method;
-  std::string json;                      ///< its sections as JSON, for the summary, which repeats the question
-  ExtraGroups groups = {};               ///< of the mesh file: those that [[edge]] and a table of stiffnesses name
-  std::vector<Eigen::Vector2d> at = {};  ///< where the summary tells u
+  /// Its sections as JSON, which are copied into summary.json.
+  std::string json;
+  /// The groups of the mesh file that [[edge]] and a table of stiffnesses name.
+  ExtraGroups groups = {};
+  std::vector<Eigen::Vector2d> at = {};  ///< points at which the summary gives u
   SceneModel model = {};
 };
 
-/// Reads and checks everything that can be checked without a mesh. Throws Error, one line `FILE: KEY: what is wrong;
-/// accepted: ...`, KEY as in `layer.epsilon`. The load and the gap of the scene throw the same way, wherever they turn
-/// out not to be finite later.
+/// Reads a scene file and checks everything that can be checked without a mesh. Throws Error, one
+/// line `FILE: KEY: what is wrong; accepted: ...`. KEY is, for example, `layer.epsilon`. The
+/// functions for the load and the gap throw the same Error later, where they are not finite.
 SceneFile read_scene_file(const std::filesystem::path& path);
 
-/// The same from a text in memory; `path` is its name in messages, and mesh files are looked for beside it.
+/// Reads a scene from a text in memory. `path` is its name in messages, and mesh files are searched
+/// in its folder.
 SceneFile read_scene(const std::string& text, const std::filesystem::path& path);
 
-/// What goes beyond the paper's problem, in words: plane strain, or what Scene::beyond_the_paper names; empty where
-/// nothing does.
+/// Returns the name of a feature that the problem of [SR04] (cited in
+/// problem/variational_inequality.hpp) does not have: plane strain, or the one of
+/// Scene::beyond_the_paper. Empty if there is none.
 std::string beyond_the_paper(const SceneFile& file);
 
-/// Throws Error, `FILE: WHO: ...`, for a scene that goes beyond the paper's problem.
+/// Throws Error, `FILE: WHO: ...`, for a scene with such a feature.
 void require_paper_problem(const SceneFile& file, const std::string& who);
 
 }  // namespace antilock

@@ -1,5 +1,6 @@
 #pragma once
-// The keys of a scene file: one table, from which files are read, keys are refused and the help is written.
+// The keys of a scene file. One table defines them: the reader, its error messages and the help use
+// it.
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,42 +22,53 @@ struct SceneKey {
     flag,        ///< true
     places,      ///< a list of points, as [[0.25, -1.0]]
   };
-  /// Numbers between two others, both of which are accepted unless `above` and `below` say that they are not.
+  /// The numbers between two others. Both ends are accepted unless `above` and `below` exclude
+  /// them.
   struct Range {
     double least = 0, most = 0;
     bool above = false;
     bool below = false;
-    bool whole = false;  ///< whole numbers alone
+    bool whole = false;  ///< only whole numbers
     bool holds(double value) const;
   };
 
-  std::string section;  ///< whose key it is; empty: the file itself, the keys of which are its title and its sections
+  /// The section of the key; empty for the title and for the sections themselves.
+  std::string section;
   std::string name;
   Type type;
-  std::string does;                        ///< one line
-  std::optional<std::string> otherwise{};  ///< where the key is absent: without the quotes of TOML; empty: no value
-  bool required = false;                   ///< always, where its section is
+  std::string does;  ///< its description, one line
+  /// The default, without the quotes of TOML; empty: there is none.
+  std::optional<std::string> otherwise{};
+  /// Whether the key must be given whenever its section is.
+  bool required = false;
   std::vector<std::string> choices{};
-  std::string accepted{};             ///< the end of a message that refuses a value: of a number without "a number, "
-  std::optional<Range> range{};       ///< empty: the section's reader knows what is accepted
-  std::vector<std::string> models{};  ///< of [model]: the kinds that have it, of "rubber" and "coating"; empty: all
+  /// The text after "accepted: " in a message; for a number without the words "a number, ".
+  std::string accepted{};
+  /// The accepted numbers; empty: the reader of the section checks the value.
+  std::optional<Range> range{};
+  /// For a key of [model]: the kinds that have it, "rubber" or "coating"; empty: all.
+  std::vector<std::string> models{};
 
-  // A section's lines in the help are in the order of `line`. A key without a line is told by the comment of another one.
+  // The help lists the keys of a section in the order of `line`. The comment of another key
+  // describes a key without a line.
   int line = 0;           ///< 0: none
-  std::string example{};  ///< its value there
-  std::string comment{};  ///< behind the value, further lines below it
+  std::string example{};  ///< the value of the key in this line
+  std::string comment{};  ///< the comment behind the value; further lines stand below it
 };
 
-/// In the order in which messages name them.
+/// Returns all keys, in the order in which messages name them.
 const std::vector<SceneKey>& scene_keys();
 
-/// A row of the table. Throws std::logic_error for a key that it does not have: reader and table differ then.
+/// Returns a row of the table. Throws std::logic_error for a key that the table does not have,
+/// because the reader and the table then differ.
 const SceneKey& scene_key(const std::string& section, const std::string& name);
 
-/// The names of a section's keys; of [model], those of a kind ("rubber", "coating", or "" for the rest).
+/// Returns the names of the keys of a section; for [model] those of a kind ("rubber", "coating", or
+/// "" for the rest).
 std::vector<std::string> key_names(const std::string& section, const std::string& model = {});
 
-/// An example of a scene file that has every section, with the comments of its keys: the first part of `run_scene --help`.
+/// Returns an example of a scene file that has every section, with the comments of its keys. It is
+/// the first part of `run_scene --help`.
 std::string scene_keys_help();
 
 }  // namespace antilock

@@ -4,16 +4,20 @@
 
 namespace antilock {
 
-/// The mesh of a scene file: made, or read and compared with the scene, then refined. From a file the body may be
-/// anything on or above y = 0 with a bottom edge on that line, or above a curve of contact edges, along whose normals
-/// the layer then grows: with a layer all of it is Sigma, and the layer fills the strip below, contact at its bottom;
-/// without one all of it is contact. A geometry that the scene names is read and compared with the boundary; no other
-/// is looked at. Throws Error, `FILE: KEY: ...`, KEY mesh.cells, mesh.file, mesh.geometry, mesh.refinements, or load.f and
-/// contact.gap where these have no value on the body of a file.
+/// Returns the mesh of a scene file: made by a generator, or read and compared with the scene, and
+/// then refined. The body of a mesh file lies above its lower side. This side is the part of its
+/// boundary on the line y = 0, or, where the contact edges leave this line, the curve of the
+/// contact edges. With a layer this side is Sigma. The layer fills the strip below it, along the
+/// normals of a curve, and its bottom is in contact. If the file has no layer, a scaled layer is
+/// made below the body. Without a layer in the scene all of the side is in contact. A geometry that
+/// the scene names is read and compared with the boundary; other geometry files are ignored.
+///
+/// Throws Error, `FILE: KEY: ...`. KEY is mesh.cells, mesh.file, mesh.geometry or mesh.refinements.
+/// It is load.f, contact.gap or contact.ceiling if check_on_mesh throws.
 TriangleMesh make_mesh(const SceneFile& file);
 
-/// The mesh width to report: 1/cells of the refined mesh, or the longest edge of one from a file or refined to an
-/// accuracy.
+/// Returns the mesh width for reports: 1/cells of the refined mesh, or the longest edge if the mesh
+/// comes from a file or was refined to an accuracy.
 double mesh_width(const SceneFile& file, const TriangleMesh& mesh);
 
 }  // namespace antilock

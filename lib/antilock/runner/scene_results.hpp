@@ -13,21 +13,22 @@
 
 namespace antilock {
 
-/// The picture's part of a run on several ranks.
+/// Returns the name of the VTU file of one rank, in a run on several ranks.
 std::string piece_name(int rank);
-/// The names of all results that there may be in `folder`, those of an earlier run too, and of one on `ranks` ranks:
-/// what a new result replaces or takes away.
+/// Returns the names of all files that a new result in `folder` replaces or removes, including
+/// those of an earlier run and of a run on `ranks` ranks.
 std::vector<std::string> result_names(const std::filesystem::path& folder, int ranks = 0);
-/// Throws Error where one of them is the scene, its mesh file or its geometry. Touches nothing.
+/// Throws Error where one of these files is the scene, its mesh file or its geometry, or where one
+/// of these names is a folder. Changes no file.
 void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
                        int ranks = 0);
 
-/// The numbers of summary.json, whoever solved the scene: one process or the ranks of a run with PETSc.
+/// The numbers of summary.json, for a run on one process or on several ranks with PETSc.
 struct SceneSummary {
-  double h = 0;  ///< mesh_width, or the same of all pieces
+  double h = 0;  ///< mesh_width, or the same over all ranks
   std::int64_t unknowns = 0;
   double energy = 0, u_max = 0, u_min = 0;
-  ContactZone zone;  ///< read with the effect alone
+  ContactZone zone;  ///< used only for a scene with contact
   Kkt kkt;
   int contact_steps = 0, corrections = 0;
   std::optional<LockingReport> layer;
@@ -41,26 +42,31 @@ struct SceneSummary {
   };
   std::optional<Parallel> parallel;
 };
+/// Returns the summary of a result. Throws Error for a point of [at] outside the mesh.
 SceneSummary summary_of(const SceneFile& file, const Result& result);
 
-/// The text of summary.json, the only place of its keys, which are those of `run_scene --help`. `certified`, where an
-/// accuracy was asked for, gives its `certificate`; `files` are the seconds spent on the other files. Throws
-/// NotConverged where a number is not finite.
+/// Returns the text of summary.json. Its keys are those of `run_scene --help`, and this function
+/// alone writes them. `certified` is given for a scene with an accuracy, and becomes `certificate`.
+/// `files` are the seconds spent on the other files. Throws NotConverged where a number is not
+/// finite.
 std::string summary_text(const SceneFile& file, const SceneSummary& summary, const RunSeconds& seconds, double files,
                          const CertifiedSolution* certified = nullptr);
-/// The same as a file.
+/// Writes this text to a file.
 void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
                    const RunSeconds& seconds, double files, const CertifiedSolution* certified = nullptr);
 
-/// Which files are asked for, of "csv", "mesh" and "vtu"; summary.json is always written.
+/// The requested files: "csv", "mesh" and "vtu". "summary" has no effect, because summary.json is
+/// always written.
 using ResultFiles = std::set<std::string>;
-/// From such words, or "summary", with commas between them. Throws Error, the option first.
+/// Reads such words, or "summary", separated by commas. Throws Error, the option first.
 ResultFiles result_files(const std::string& words);
 
-/// The answer to a scene file, in `folder`: summary.json, solution.csv, contact.csv (with the effect only), mesh.msh
-/// (MSH 2.2), solution.vtu; all that are asked for or none, and those of an earlier run that are not asked for go. Gaps
-/// and pressures that are negative by round-off are written as 0; the summary's `kkt` has them as they are. Throws
-/// Error where the folder cannot be written, NotConverged where a number is not finite.
+/// Writes the results of a scene file into `folder`: summary.json, solution.csv, contact.csv (for a
+/// scene with contact), mesh.msh (MSH 2.2) and solution.vtu. It writes all requested files or none,
+/// and removes the other files of an earlier run. Gaps and pressures that are negative by round-off
+/// are written as 0, unless the scene has a ceiling. The `kkt` of the summary contains them
+/// unchanged. Throws Error where the folder cannot be written, and NotConverged where a number is
+/// not finite.
 void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Result& result,
                          const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked);
 

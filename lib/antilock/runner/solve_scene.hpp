@@ -13,25 +13,29 @@
 
 namespace antilock {
 
-/// The discrete problem of a scene file on a space of its mesh: the scene's, or in plane strain that of two components
-/// in this space (size 2 N). Throws Error.
+/// Returns the discrete problem of a scene file on a space of its mesh. In plane strain both
+/// components are in this space (2 N unknowns). Throws Error.
 VariationalInequality problem_of(const SceneFile& file, const Space& space);
 
-/// Callbacks of solve_scene; an empty one costs nothing.
+/// Callbacks of solve_scene. An empty one is not called.
 struct Callbacks {
-  std::function<void(const std::string&)> stage;      ///< what begins now
-  ProgressHook solve;                                 ///< may end a solve on one mesh, or a level of an accuracy
-  std::function<void(const RefinementLevel&)> level;  ///< with an accuracy, after every level
+  /// Called with the name of each stage when it begins.
+  std::function<void(const std::string&)> stage;
+  /// Called during a solve; `false` ends it, on one mesh or on a level of an accuracy.
+  ProgressHook solve;
+  std::function<void(const RefinementLevel&)> level;  ///< called after every level of an accuracy
 };
 
-/// Solves a scene file by its [method]: one solve on its mesh, whose history is empty, or with an accuracy as
-/// many as it takes. `warning` is about the layer, the solve, the load, the displacements, the gap and the polygon, and
-/// `locking` holds the layer's report. Throws Error, and NotConverged with how far it came, also where double precision goes no further than
-/// asked.
+/// Solves a scene file by its [method]. This is one solve on its mesh, whose history is empty, or,
+/// with an accuracy, as many as it needs. `warning` is about the layer, the solve, the load, the
+/// displacements, the gap and the polygon, and `locking` is the report on the layer. Throws Error,
+/// and NotConverged with the accuracy that was reached, also where double precision does not
+/// suffice for the requested one.
 CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow);
 
-/// The result with its normal bounds alone, by x: friction's stand behind them. What contact.csv and the zone are made of:
-/// the bounds with u, lambda and active, and no matrix.
+/// Returns the result with its normal bounds only, ordered by x. The bounds of friction, which
+/// follow them, are left out. It contains the bounds, u, lambda and active, which contact.csv and
+/// the contact zone need, and no matrices.
 Result normal_contact(const Result& result);
 
 }  // namespace antilock
