@@ -4,14 +4,17 @@
 
 namespace antilock::distributed {
 
-/// The answer's forces on Gamma_C: per owned row, 0 off the contact set.
+/// Returns the forces of the solution on Gamma_C, the contact boundary, one per owned row: 0 off
+/// the contact set. Every rank must call it.
 Eigen::VectorXd contact_forces(const DistributedProblem& problem, const State& state);
 
-/// The report of solve/kkt.hpp, with the same scales, over all ranks: the same numbers on each. Every rank must call it.
+/// Returns the report of solve/kkt.hpp over all ranks, with the same scales. The numbers are the
+/// same on every rank. Every rank must call it.
 Kkt kkt_report(const DistributedProblem& problem, const State& state);
 
-/// The report; throws NotConverged, on every rank, where it is above solve/kkt.hpp's level `refused` and ten times the
-/// tolerance that was asked for. `warning` is empty, or says how far it is above the trusted level.
+/// Returns this report. Throws NotConverged, on every rank, where the worst violation is above
+/// max(KktTolerances::fail, 10 tolerance). `warning` is empty, or says how far the violation is
+/// above KktTolerances::warn.
 Kkt certified(const DistributedProblem& problem, const State& state, double tolerance, std::string& warning);
 
 }  // namespace antilock::distributed

@@ -8,41 +8,49 @@
 
 namespace antilock::distributed {
 
-/// Which points of Gamma_C are in contact, all ranks' points by x: what one level tells the next, and what a checkpoint
-/// holds. It does not depend on the number of ranks.
+/// The contact set on the points of Gamma_C, the contact boundary, of all ranks, ordered by x. The
+/// next level starts from it, and a checkpoint contains it. It does not depend on the number of
+/// ranks.
 struct ContactSet {
-  std::vector<double> x;     ///< ascending
-  std::vector<char> active;  ///< as many
+  std::vector<double> x;     ///< ascending, one per point
+  std::vector<char> active;  ///< one per point: whether it is in contact
 
-  /// Whether a point between these is taken to be in contact: where its two neighbours are.
+  /// Returns whether both neighbours of x are in contact, which is the guess for a new point at x.
   bool at(double x) const;
 };
 
-/// One mesh of the hierarchy with everything that this rank has on it.
+/// One mesh of the hierarchy with the data of this rank on it.
 struct NestedLevel {
   NestedLevel(const Scene& scene, TriangleMesh subdomain, const Element& element);
-  Space space;  ///< on this rank's subdomain
+  Space space;  ///< on the subdomain of this rank
   DistributedProblem problem;
   State state;
   ContactSet contact_set() const;  ///< of all ranks; every rank must call it
+  /// Sets the contact set of `state` to the guess of `set`.
   void start_from(const ContactSet& set);
-  /// Takes over u and p of the level that this one refines, each on its own triangles.
+  /// Sets u and p to those of the level that this one refines, each rank on its own triangles.
   void start_from(const NestedLevel& coarse);
 };
 
 struct NestedOptions {
-  int refinements = 0;  ///< of the coarse mesh
-  /// The rank of every triangle of the coarse mesh; empty: strips. For exhibits of what another share costs.
+  int refinements = 0;  ///< number of refinements of the coarse mesh
+  /// Returns the rank of every triangle of the coarse mesh; empty: strip_partition. It serves to
+  /// measure other partitions.
   std::function<std::vector<int>(const TriangleMesh&, int ranks)> partition;
-  LoopOptions loop;                 ///< of the last level
-  int first_level = 0;              ///< where to begin to solve: a checkpoint holds the set of the level before
-  std::optional<ContactSet> start;  ///< of the first level; empty: no contact
-  /// After each level but the last, on every rank: what a later run can start from.
+  LoopOptions loop;  ///< of the last level
+  /// The level on which the first solve is made. A checkpoint contains the contact set of the level
+  /// before.
+  int first_level = 0;
+  /// The contact set from which the first level starts; empty: no contact.
+  std::optional<ContactSet> start;
+  /// Called on every rank after each level except the last, with the contact set from which a later
+  /// run can start.
   std::function<void(int level, const ContactSet&)> checkpoint = [](int, const ContactSet&) {};
-  std::function<void(const std::string&)> stage = [](const std::string&) {};  ///< told what is being done
+  /// Called with the name of the stage that begins.
+  std::function<void(const std::string&)> stage = [](const std::string&) {};
 };
 
-/// What a solve did. Seconds are those of this rank.
+/// Counts and times of a solve. Seconds are those of this rank.
 struct NestedReport {
   LoopReport last;                                      ///< of the last level
   std::vector<LoopReport> loops;                        ///< per level solved
@@ -53,10 +61,12 @@ struct NestedReport {
   std::string warning;
 };
 
-/// Solves a scene on `coarse`, refined: strips, assembly, and on every level the contact loop started from the level
-/// before. No rank ever holds more of the fine mesh than its own strip. Every rank must call it, with the same coarse
-/// mesh. Throws, on every rank alike, Error where the coarse mesh cannot be dealt out or does not fit the scene, where
-/// a load or a gap is not finite or the element is neither P1 nor CR; NotConverged.
+/// Refines `coarse` and solves a scene on every level. The mesh is cut into strips. The contact
+/// loop of a level starts from the solution of the level before. No rank ever holds more of the
+/// fine mesh than its own strip. Every rank must call it, with the same coarse mesh. Throws the
+/// same exception on every rank: Error where the coarse mesh cannot be distributed or does not fit
+/// the scene, where a load or a gap is not finite, and where the element is neither P1 nor
+/// Crouzeix-Raviart, and NotConverged.
 std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
                                           const NestedOptions& options, NestedReport& report);
 

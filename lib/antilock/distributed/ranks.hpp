@@ -5,9 +5,10 @@
 
 namespace antilock::distributed {
 
-/// MPI and PETSc from here to the end of the scope. One a program. PETSc's own reports on standard error are off: a
-/// failure comes as an exception. BoomerAMG's options are set as measured to be best here; the environment variable
-/// PETSC_OPTIONS overrides them.
+/// Initialises MPI and PETSc, and finalises them at the end of its scope. A program may have only
+/// one. PETSc's own reports on standard error are off: a failure is an exception. The options of
+/// BoomerAMG are those that were the best here (measured). The environment variable PETSC_OPTIONS
+/// overrides them.
 class Session {
  public:
   Session();
@@ -17,26 +18,33 @@ class Session {
 };
 
 int rank();   ///< of this process, 0 to ranks() - 1
-int ranks();  ///< processes of the run
+int ranks();  ///< number of processes of the run
 std::string petsc_version();
 
-/// Runs `work` on this rank. Where it throws Error, InputError, NotConverged or bad_alloc on any rank, every rank throws what the
-/// first of them threw: no rank goes on and waits for one that has given up. `work` itself must not communicate.
+/// Runs `work` on this rank. Where it throws Error, InputError, NotConverged or bad_alloc on any
+/// rank, every rank throws the exception of the first of these ranks. So no rank continues and
+/// waits for one that has failed. `work` itself must not communicate.
 void collectively(const std::function<void()>& work);
 
-/// Ends the run of all ranks with that status, after one line on standard error: for a failure of this rank that the
-/// others do not know of.
+/// Ends the run of all ranks with that status, after one line on standard error. It is for a
+/// failure of this rank of which the others do not know.
 [[noreturn]] void abort(const std::string& message, int status);
 
-double sum(double value);                                           ///< over the ranks
-double largest(double value);                                       ///< over the ranks
-long long sum(long long value);                                     ///< over the ranks
-std::vector<double> all_gather(const std::vector<double>& values);  ///< of all ranks, rank by rank, on every rank
-std::vector<long long> all_gather(long long value);                 ///< one value per rank, on every rank
-std::string broadcast(std::string text);                            ///< the text of rank 0, on every rank
+double sum(double value);        ///< over the ranks
+double largest(double value);    ///< over the ranks
+long long sum(long long value);  ///< over the ranks
+/// Those of all ranks, rank by rank, on every rank.
+std::vector<double> all_gather(const std::vector<double>& values);
+/// One value per rank, on every rank.
+std::vector<long long> all_gather(long long value);
+/// The text of rank 0, on every rank.
+std::string broadcast(std::string text);
 
-std::string first_nonempty(const std::string& text);  ///< of the first rank whose text is not empty
+/// Returns the text of the first rank whose text is not empty, on every rank; empty if there is
+/// none.
+std::string first_nonempty(const std::string& text);
 
-double peak_megabytes();  ///< largest resident memory so far, of the rank that has most
+/// Returns the largest resident memory so far, in MB, of the rank that has the most.
+double peak_megabytes();
 
 }  // namespace antilock::distributed

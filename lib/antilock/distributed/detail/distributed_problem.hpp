@@ -7,42 +7,48 @@
 
 namespace antilock::distributed {
 
-/// delta of A_delta, by the rule of problem/choose_penalty.hpp over all ranks. One 64th of it for the contact loop:
-/// conjugate gradients leave no round-off of a factor (measured at 8.4 million unknowns: with 6e-8 59 iterations, with
-/// 1e-9 14). The rule's own for a solver that sees A_delta alone. The compliance itself, however small, as in most
-/// codes: for exhibits.
+/// The choice of delta in A_delta = A1 + delta^-1 B' M B. serial_default is the rule of
+/// problem/choose_penalty.hpp over all ranks, for a solver that uses A_delta alone.
+/// distributed_default is 1/64 of it, for the contact loop: conjugate gradients do not have the
+/// round-off of a factor (measured at 8.4 million unknowns: 59 iterations with 6e-8, 14 with 1e-9).
+/// none is the compliance itself, however small, as in most codes: for comparisons.
 enum class PenaltyChoice { distributed_default, serial_default, none };
 
-/// The class's problem (6), each rank with the part of its own triangles: a1, B, M and L of the subdomain, assembled
-/// by the library's forms. Whole forms are sums over the ranks; only A_delta = A1 + delta^-1 B' M B is ever a matrix
-/// of all ranks.
+/// The problem of the class (6) (problem/variational_inequality.hpp). Each rank has the part of its
+/// own triangles: A1, B, M and L of its subdomain, assembled by the forms of the library. The forms
+/// of the whole problem are sums over the ranks. Only A_delta is assembled as a matrix of all
+/// ranks.
 class DistributedProblem {
  public:
-  /// `space`: on the subdomain of this rank. Every rank must call it. Throws Error, on every rank, where scene and
-  /// mesh do not fit or a load or a gap is not finite.
+  /// `space` is a space on the subdomain of this rank. Every rank must call it. Throws Error, on
+  /// every rank, where scene and mesh do not fit, or a load or a gap is not finite.
   DistributedProblem(const Scene& scene, const Space& space,
                      PenaltyChoice penalty = PenaltyChoice::distributed_default);
 
-  const VariationalInequality& part() const { return part_; }  ///< without fixed and contact unknowns
+  /// The forms and the load of the subdomain. rows() and lower() replace its lists of prescribed
+  /// and contact unknowns, because a vertex may be on a boundary edge of another subdomain only.
+  const VariationalInequality& part() const { return part_; }
   const DofMap& rows() const { return rows_; }
-  const Matrix& k() const { return k_; }                   ///< N x N, clamped rows with their diagonal alone
-  double delta() const { return delta_; }                  ///< the compliance at least
-  const Eigen::VectorXd& lower() const { return lower_; }  ///< per owned row: the bound, -infinity where there is none
+  /// N x N: A_delta, in which clamped rows have only their diagonal.
+  const Matrix& k() const { return k_; }
+  double delta() const { return delta_; }  ///< not below the compliance
+  /// Per owned row: the bound, -infinity where there is none.
+  const Eigen::VectorXd& lower() const { return lower_; }
 
-  /// r1 = L - A1 u - B' M p, the part of this rank; 0 at the clamped unknowns. u at the unknowns of the subdomain, p
-  /// at its rows of B.
+  /// Returns r1 = L - A1 u - B' M p, the part of this rank, which is 0 at the clamped unknowns. u
+  /// has a value per unknown of the subdomain, p one per row of B there.
   Eigen::VectorXd equilibrium(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
     return rows_.unclamped(part_.load - part_.a1 * u - part_.b.transpose() * part_.m.cwiseProduct(p));
   }
-  /// r2 = compliance p - B u; never shared.
+  /// Returns r2 = compliance p - B u, whose rows belong to one rank each.
   Eigen::VectorXd compatibility(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
     return part_.compliance * p - part_.b * u;
   }
-  /// A correction of both: A_delta du = r1 + delta^-1 B' M r2, the part of this rank,
+  /// Returns the right-hand side r1 + delta^-1 B' M r2 of A_delta du, the part of this rank.
   Eigen::VectorXd right_side(const Eigen::VectorXd& r1, const Eigen::VectorXd& r2) const {
     return rows_.unclamped(r1 + part_.b.transpose() * part_.m.cwiseProduct(r2) / delta_);
   }
-  /// and dp = (B du - r2) / delta.
+  /// Returns the correction dp = (B du - r2) / delta of p.
   Eigen::VectorXd stress_step(const Eigen::VectorXd& du, const Eigen::VectorXd& r2) const {
     return (part_.b * du - r2) / delta_;
   }

@@ -7,31 +7,36 @@
 
 namespace antilock::distributed {
 
-/// Which row of the whole problem each unknown of a subdomain is, and the way between these unknowns and a vector of
-/// all ranks, in which one rank owns what several hold. The rows of rank 0 come first; those of a rank stand by column
-/// (x, then y: what belongs together in the layer stands together). Clamped unknowns have a row, too: u stays 0 there.
+/// The row of the whole problem for each unknown of a subdomain, and the exchange between these
+/// unknowns and a vector of all ranks, in which one rank owns each row that several ranks have. The
+/// rows of rank 0 come first. The rows of a rank are ordered by x, then by y, so that the unknowns
+/// of a column of the layer are neighbours. Clamped unknowns have a row, too, where u stays 0.
 class DofMap {
  public:
-  /// P1 or CR. Every rank must call it.
+  /// The element is P1 or Crouzeix-Raviart. Every rank must call it.
   explicit DofMap(const Space& space);
 
-  int owned() const { return static_cast<int>(unknown_.size()); }        ///< rows of this rank
-  PetscInt first() const { return first_; }                              ///< the row of place 0
-  long long total() const { return total_; }                             ///< rows of all ranks that are not clamped
-  const std::vector<PetscInt>& row() const { return row_; }              ///< per unknown of the subdomain
-  int unknown(int place) const { return unknown_[place]; }               ///< of the space; place: of an owned row
-  bool clamped(int unknown) const { return clamped_[unknown] != 0; }     ///< as any rank knows it
-  bool contact(int unknown) const { return on_contact_[unknown] != 0; }  ///< as any rank knows it; not where clamped
+  int owned() const { return static_cast<int>(unknown_.size()); }  ///< number of rows of this rank
+  PetscInt first() const { return first_; }                        ///< the first row of this rank
+  /// Number of rows of all ranks that are not clamped.
+  long long total() const { return total_; }
+  /// One per unknown of the subdomain.
+  const std::vector<PetscInt>& row() const { return row_; }
+  /// The unknown of the space for an owned row; `place` is the number of the row on this rank.
+  int unknown(int place) const { return unknown_[place]; }
+  bool clamped(int unknown) const { return clamped_[unknown] != 0; }  ///< according to any rank
+  /// Whether it is on Gamma_C, the contact boundary, on any rank, and not clamped.
+  bool contact(int unknown) const { return on_contact_[unknown] != 0; }
 
-  /// A vector of the rows, zero.
+  /// Returns a vector of all rows, zero.
   Vector vector() const;
-  /// The values at all unknowns of the subdomain.
+  /// Returns the values at all unknowns of the subdomain.
   Eigen::VectorXd local(Vec v) const;
-  /// v = the sum over the ranks of what each has at its unknowns.
+  /// Sets v to the sum over the ranks of the values at their unknowns.
   void summed(const Eigen::VectorXd& local, Vec v) const;
-  /// The same values, but 0 at the clamped unknowns.
+  /// Returns the same values, but 0 at the clamped unknowns.
   Eigen::VectorXd unclamped(Eigen::VectorXd local) const;
-  /// v = what this rank has at the unknowns that it owns, 0 at the clamped ones.
+  /// Sets v to the values of this rank at the unknowns that it owns, and to 0 at the clamped ones.
   void owned_part(const Eigen::VectorXd& local, Vec v) const { Entries{v} = unclamped(local)(unknown_); }
 
  private:

@@ -9,13 +9,13 @@
 
 namespace antilock::distributed {
 
-/// A call of PETSc that failed on this rank, which the other ranks need not know of: the run is to be aborted, since
-/// they may wait for this rank for ever.
+/// Thrown where a call of PETSc failed on this rank. The other ranks need not know of the failure.
+/// The run is then aborted, because they may wait for this rank for ever.
 struct PetscFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws PetscFailure where a call of PETSc failed; PETSc itself stays silent (see Session).
+/// Throws PetscFailure where a call of PETSc failed. PETSc itself prints nothing (see Session).
 inline void ok(PetscErrorCode code) {
   if (code == 0) return;
   const char* text = nullptr;
@@ -23,7 +23,7 @@ inline void ok(PetscErrorCode code) {
   throw PetscFailure(std::string("PETSc: ") + (text != nullptr ? text : "unknown error"));
 }
 
-/// A PETSc object, destroyed with its owner. `&handle` is where PETSc writes a new object.
+/// A PETSc object that is destroyed with its owner. PETSc writes a new object to `&handle`.
 template <class Object, PetscErrorCode (*destroy)(Object*)>
 class Handle {
  public:
@@ -46,7 +46,7 @@ using Matrix = Handle<Mat, MatDestroy>;
 using Vector = Handle<Vec, VecDestroy>;
 using LinearSolver = Handle<KSP, KSPDestroy>;
 
-/// The values of a vector that this rank owns, for the length of a scope.
+/// The values of a vector that this rank owns. They must not be used after the end of its scope.
 class Entries : public Eigen::Map<Eigen::VectorXd> {
  public:
   explicit Entries(Vec v) : Map(array_of(v), size_of(v)), v_(v) {}
