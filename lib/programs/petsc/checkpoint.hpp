@@ -6,21 +6,25 @@
 
 namespace antilock::distributed {
 
-/// What a run leaves behind after each level, for --restart: the contact set by x. It serves any number of ranks.
+/// The data that a run writes after each level for --restart: the contact set by x. It is fit for
+/// any number of ranks.
 struct Checkpoint {
-  std::string question;  ///< question_of the scene that it belongs to
+  std::string question;  ///< question_of the scene of the run
   int cells = 0;         ///< cells per unit side of the level that was solved
   ContactSet set;
 };
 
-/// A hash of everything that the answer depends on: the scene file and the mesh file behind it, byte by byte.
+/// Returns a hash of the data on which the solution depends: the bytes of the scene file and of its
+/// mesh file.
 std::string question_of(const std::filesystem::path& scene, const std::filesystem::path& mesh);
 
-/// The file beside the results folder OUT: OUT.checkpoint.
+/// Returns the path of the checkpoint of a folder of results OUT: OUT.checkpoint, beside the
+/// folder.
 std::filesystem::path checkpoint_path(const std::filesystem::path& out);
-/// Whole or not at all. Throws Error.
+/// Writes a checkpoint, whole or not at all. Throws Error.
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
-/// Throws Error where there is none, where it is damaged or belongs to another question.
+/// Reads a checkpoint. Throws Error where there is none, and where it is damaged or belongs to
+/// another scene.
 Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& question);
 
 }  // namespace antilock::distributed

@@ -9,19 +9,22 @@
 
 namespace antilock::distributed {
 
-/// The answer of all ranks in one folder, all files or none: summary.json, solution.csv (up to a million unknowns),
-/// contact.csv (with contact), mesh.msh, solution.pvtu with a piece per rank. Columns and keys are those of a run
-/// without MPI. Every rank must call it; throws on every rank alike.
+/// Writes the solution of all ranks into one folder, all files or none: summary.json, solution.csv
+/// (up to most_csv_unknowns), contact.csv (with contact), mesh.msh, and solution.pvtu with a VTU
+/// file per rank. Columns and keys are those of a run without MPI. Every rank must call it. Throws
+/// the same exception on every rank.
 void write_scene_files(const std::filesystem::path& folder, const SceneFile& file, const NestedLevel& level,
                        const NestedReport& report, int levels, const std::optional<LockingReport>& layer,
                        const std::string& warning, const RunSeconds& seconds);
 
-/// What the answer says of its own locking, on rank 0 (empty on the others). `coarse` is the mesh that was refined so many
-/// times; where it can lock, the whole answer is brought together. Every rank must call it.
+/// Returns the report on the locking of the solution on rank 0, and nothing on the other ranks. The
+/// mesh of the solution is `coarse` after `refinements` refinements. If the element can lock, rank
+/// 0 collects the whole solution. Every rank must call it.
 std::optional<LockingReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse, int refinements,
                                                  const NestedLevel& level);
 
-/// Beyond, the text of solution.csv serves nobody.
+/// Above this number of unknowns solution.csv is not written, because such a long text is hardly of
+/// use.
 constexpr int most_csv_unknowns = 1'000'000;
 
 }  // namespace antilock::distributed

@@ -8,29 +8,29 @@
 
 namespace antilock::subcommands {
 
-/// A table of numbers, and the line of the file that each row stands on, from 1.
+/// A table of numbers, and for each row its line in the file, counted from 1.
 struct CsvTable {
   Eigen::MatrixXd numbers;  ///< rows x columns
   std::vector<int> line;
 };
 
-/// Which tables are accepted: how many of the last columns may be absent, header and all, and
-/// whether a number may be infinite ("inf", "-inf").
+/// The accepted form of a table: how many of the last columns may be absent (with their headers),
+/// and whether a number may be infinite ("inf", "-inf").
 struct CsvForm {
   std::size_t optional_columns = 0;
   bool infinite = false;
 };
 
-/// Reads a table with this header line, comma separated, one row per line. A byte order mark, spaces
-/// and tabs, quotes around an entry, a plus sign and empty lines are accepted. Throws Error,
+/// Reads a table with this header line, separated by commas, one row per line. A byte order mark,
+/// spaces and tabs, quotes around an entry, a plus sign and empty lines are accepted. Throws Error,
 /// `NAME: line N: what is wrong; accepted: ...`, for another header (none, one behind "#", one with
 /// semicolons), another number of entries, an entry that is no number, or a text in UTF-16.
 CsvTable read_csv_table(std::istream& in, const std::string& name, const std::vector<std::string>& header,
                         const CsvForm& form = {});
-/// The same from a file; throws Error where it cannot be opened.
+/// Does the same for a file. Throws Error also where it cannot be opened.
 CsvTable read_csv_table(const std::string& path, const std::vector<std::string>& header, const CsvForm& form = {});
 
-/// The numbers alone.
+/// Do the same, and return only the numbers.
 Eigen::MatrixXd read_csv(std::istream& in, const std::string& name, const std::vector<std::string>& header);
 Eigen::MatrixXd read_csv(const std::string& path, const std::vector<std::string>& header);
 

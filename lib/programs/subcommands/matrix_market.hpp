@@ -5,11 +5,12 @@
 
 namespace antilock::subcommands {
 
-/// A matrix from a Matrix Market file: `coordinate` or `array`, `real` or `integer`, `general` or `symmetric`; entries that
-/// come twice add up. Throws Error, `PATH: line N: what is wrong; accepted: ...`, for anything else, a wrong number of
-/// entries, an index outside the matrix, or a number that is not finite.
+/// Reads a matrix from a Matrix Market file: `coordinate` or `array`, `real` or `integer`,
+/// `general` or `symmetric`. Entries with the same indices are added. Throws Error, `PATH: line N:
+/// what is wrong; accepted: ...`, for anything else, a wrong number of entries, an index outside
+/// the matrix, or a number that is not finite.
 SparseMatrix read_matrix(const std::string& path);
-/// The same for a vector: one column, or one row, or the diagonal of a square matrix.
+/// Does the same for a vector: one column, one row, or the diagonal of a square matrix.
 Eigen::VectorXd read_vector(const std::string& path);
 
 }  // namespace antilock::subcommands
