@@ -11,7 +11,7 @@
 
 namespace antilock::tutorial {
 
-/// The indicator per area, as log10: VTU with one colour per triangle.
+/// Writes log10 of the indicator divided by the area, as VTU with one colour per triangle.
 inline void write_density(const std::filesystem::path& file, const TriangleMesh& mesh,
                           const Eigen::VectorXd& indicator) {
   Eigen::MatrixX3d corners(mesh.triangle_count(), 3);
@@ -20,7 +20,8 @@ inline void write_density(const std::filesystem::path& file, const TriangleMesh&
   write_vtu(file, mesh, corners);
 }
 
-/// One component of sigma; in the layer the second one is the stress p.
+/// Returns component k of the flux sigma, T x 3 values at the corners of the T triangles. In the
+/// layer component 1 is the stress p.
 inline Eigen::MatrixX3d component(const TriangleMesh& mesh, const EquilibratedFlux& flux, int k) {
   Eigen::MatrixX3d corners(mesh.triangle_count(), 3);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
@@ -31,7 +32,7 @@ inline Eigen::MatrixX3d component(const TriangleMesh& mesh, const EquilibratedFl
   return corners;
 }
 
-/// A scene with its result by Crouzeix-Raviart, and room for what an exercise does to it.
+/// A scene with its Crouzeix-Raviart solution, which an exercise may change.
 struct Solved : Result {
   Scene scene;
 

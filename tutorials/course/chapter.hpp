@@ -14,30 +14,38 @@ namespace antilock::tutorial {
 
 struct Options;
 
-/// A variation of a tutorial that `--exercise N` runs (N counts from 1). The reader predicts first; the outcome claims
-/// what the prediction says. Its page has a line `// Run: STEM --exercise N`, from which the tests are made.
+/// A variation of a tutorial that `--exercise N` runs (N counts from 1). The reader predicts first.
+/// The outcome claims the statements of the prediction. The page of the exercise has a line
+/// `// Run: STEM --exercise N`, from which the tests are made.
 struct Exercise {
-  std::string question;                                  ///< what is changed, and what is asked
-  std::string prediction;                                ///< the answer that the outcome checks
-  std::function<void(const Options&, Report&)> outcome;  ///< options.out is empty unless --out was given
+  std::string question;    ///< the change, and the question about it
+  std::string prediction;  ///< the answer that the outcome checks
+  /// options.out is empty unless --out is given.
+  std::function<void(const Options&, Report&)> outcome;
 };
 
-/// The options that every tutorial understands. Set the defaults, and `add` options of one tutorial's own.
+/// The options of every tutorial. A tutorial sets their defaults, and adds its own options in
+/// `add`.
 struct Options {
   double epsilon = 1e-6;     ///< the paper's epsilon, least_epsilon to 1 (dimensionless)
-  double least_epsilon = 0;  ///< the smallest that the study accepts
-  std::string epsilon_is = "the paper's epsilon; 0 is the rigid limit";  ///< in --help
-  bool takes_epsilon = true;  ///< false where it has none, or studies its own: --epsilon is not offered then
-  int cells = 32;             ///< cells per unit side: h = 1/cells
-  int least_cells = 1, most_cells = 2048;  ///< what the study needs, and can afford
-  std::filesystem::path out = {};          ///< folder of the results; default results/STEM
+  double least_epsilon = 0;  ///< the smallest epsilon that the study accepts
+  /// The description of --epsilon in --help.
+  std::string epsilon_is = "the paper's epsilon; 0 is the rigid limit";
+  /// Whether --epsilon is an option. It is false for a tutorial without an epsilon, or with its own
+  /// list of them.
+  bool takes_epsilon = true;
+  int cells = 32;  ///< cells per unit side: h = 1/cells
+  /// The least number of cells that the study needs, and the largest that it can afford.
+  int least_cells = 1, most_cells = 2048;
+  std::filesystem::path out = {};  ///< folder of the results; default results/STEM
   std::function<void(CLI::App&)> add = [](CLI::App&) {};
-  std::vector<Exercise> exercises = {};  ///< what --exercise accepts; not offered where there are none
+  /// The exercises of --exercise. Without any there is no such option.
+  std::vector<Exercise> exercises = {};
 };
 
-/// Parses the command line, runs `body` or the exercise asked for, and turns the outcome into an exit status: 0 all
-/// claims hold, 1 one fails, 2 bad input (one line on standard error), 3 a solver did not converge (one line that says
-/// how far it came).
+/// Parses the command line, runs `body` or the requested exercise, and returns an exit status: 0 if
+/// all claims hold, 1 if one fails, 2 for bad input (one line on standard error), 3 if a solver did
+/// not converge (one line with the accuracy that it reached).
 int run(int argc, char** argv, const std::string& stem, const std::string& what, Options options,
         const std::function<void(const Options&, Report&)>& body);
 

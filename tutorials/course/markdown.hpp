@@ -4,7 +4,7 @@
 
 namespace antilock::tutorial {
 
-/// The words, then the table, as Markdown: the price lists of chapters 21 and 22.
+/// Writes the words, then the table, as Markdown: the price lists of chapters 21 and 22.
 inline void write_markdown(const std::filesystem::path& file, const std::string& words, const Table& table) {
   std::string head = "|", rule = "|", body;
   for (const std::string& column : table.columns()) head += ' ' + column + " |", rule += "---|";

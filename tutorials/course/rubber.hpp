@@ -13,9 +13,10 @@
 
 namespace antilock::tutorial {
 
-// What chapters 26 and 30 share.
+// The functions that chapters 26 and 30 share.
 
-/// A discretisation: triangles, an element per component, and whether edges need their jumps penalised.
+/// A discretisation: triangles, an element per component, whether the jumps at edges are penalised,
+/// and whether it locks.
 struct Rubber {
   std::string name, file;
   TriangleMesh mesh;
@@ -23,7 +24,7 @@ struct Rubber {
   bool jumps, locks;
 };
 
-/// Four on n x n squares with free sides.
+/// Returns four discretisations on n x n squares with free sides, n = `cells`.
 inline std::vector<Rubber> structured_rubbers(int cells) {
   const TriangleMesh right = with_free_sides(structured_mesh(cells, Domain{0}));
   const TriangleMesh crossed = with_free_sides(structured_mesh(cells, Domain{0}, Diagonal::crossed));
@@ -33,7 +34,7 @@ inline std::vector<Rubber> structured_rubbers(int cells) {
           {"Kouhia-Stenberg", "ks", right, p1(), crouzeix_raviart(), false, false}};
 }
 
-/// And P1 on gmsh's triangles of that size.
+/// Returns these four and P1 on gmsh's triangles of the same size.
 inline std::vector<Rubber> rubbers(int cells) {
   const TriangleMesh any = with_free_sides(unstructured_mesh(cells, Domain{0}));
   std::vector<Rubber> all;
@@ -44,7 +45,8 @@ inline std::vector<Rubber> rubbers(int cells) {
   return all;
 }
 
-/// A uniform strain, u = (.1/(1 + 2 epsilon) x, -.1 y), is in every space: the largest difference of the solution from it.
+/// Returns the largest difference of the solution from the uniform strain
+/// u = (.1/(1 + 2 epsilon) x, -.1 y), which is in every space and is the exact solution.
 inline double patch_error(const Rubber& rubber, double epsilon) {
   const Space x(rubber.mesh, rubber.in_x), y(x, rubber.in_y);
   PlaneStrain scene;  // flat obstacle, touching
@@ -57,14 +59,14 @@ inline double patch_error(const Rubber& rubber, double epsilon) {
                   (u.tail(y.size()) + 0.1 * y.dof_coordinates().col(1)).cwiseAbs().maxCoeff());
 }
 
-/// Dimension of the kernel of a1 on the free unknowns: the motions that cost no energy.
+/// Returns the dimension of the kernel of a1 on the free unknowns: the motions without energy.
 inline int zero_modes(VariationalInequality problem) {
   problem.b = problem.a1;
   problem.m = Eigen::VectorXd::Ones(problem.size());
   return kernel_dimension(problem);
 }
 
-/// How far the side x = `side`, 0 or 1, moves outwards on average.
+/// Returns the mean outward displacement of the side x = `side`, 0 or 1.
 inline double bulge(const Space& space, const Eigen::VectorXd& u, double side) {
   const TriangleMesh& mesh = space.mesh();
   double mean = 0;
@@ -80,8 +82,9 @@ inline double bulge(const Space& space, const Eigen::VectorXd& u, double side) {
   return side == 0 ? -mean : mean;
 }
 
-/// The contact force of Taylor-Hood on graded meshes (freefem/26_elasticity.edp), at epsilon = 1, 1e-2, 1e-4, <= 1e-8:
-/// how much too large a force is, in per cent; 0 / 0 where it is not known.
+/// Returns by how many per cent a contact force is too large, or NaN where the exact force is not
+/// known. The reference is the force of Taylor-Hood elements on graded meshes
+/// (freefem/26_elasticity.edp) at epsilon = 1, 1e-2, 1e-4 and <= 1e-8.
 inline double percent_too_large(double force, double epsilon) {
   static const std::map<double, double> reference{
       {1, 0.158792}, {1e-2, 0.255738}, {1e-4, 0.259131}, {1e-8, 0.259166}, {0, 0.259166}};
