@@ -12,13 +12,13 @@ class vtkRenderer;
 
 namespace antilock::figures {
 
-/// A three-dimensional scene and the part of the page that shows it, from a parallel camera.
+/// A three-dimensional scene with a parallel camera, and the part of the page that shows it.
 struct Drawing3d {
   vtkSmartPointer<vtkRenderer> renderer;
   Box where;
 };
 
-/// One piece of drawing, and how far down and up the page it reaches, in pixels.
+/// One drawing operation, and its lowest and highest place on the page, in pixels.
 struct Painting {
   double low, high;
   std::function<void(vtkContext2D&)> paint;  ///< in pixels of the large image
@@ -26,9 +26,10 @@ struct Painting {
 
 constexpr int oversampling = 3;  ///< pixels rendered per pixel of the image, each way
 
-/// The image of `width` x `height` pixels, RGB: white, the scenes, then the pieces in their order. It is rendered larger
-/// and averaged down, which smooths every edge; and in bands from the bottom up, because the driver holds some eight
-/// copies of what it renders: of a whole page they would be a gigabyte, and half of the time would go into asking for it.
+/// Returns the image of `width` x `height` pixels, RGB: white, then the scenes, then the drawing
+/// operations in their order. It is rendered larger and averaged, which smooths every edge. It is
+/// rendered in bands from the bottom up, because the driver keeps some eight copies of its output.
+/// For a whole page they would be a gigabyte, and their allocation would take half of the time.
 vtkSmartPointer<vtkImageData> render_in_bands(const std::vector<Drawing3d>& scenes, const std::vector<Painting>& pieces,
                                               int width, int height);
 

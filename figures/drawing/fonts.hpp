@@ -9,13 +9,13 @@
 
 namespace antilock::figures {
 
-/// One letter of a set line.
+/// One letter of a line.
 struct Glyph {
   FT_Face face;
   unsigned index;
   double size;  ///< pixels per em
-  double x, y;  ///< from the line's origin
-  Box ink;      ///< likewise, in pixels
+  double x, y;  ///< from the origin of the line, in pixels
+  Box ink;      ///< the box around its ink, likewise
 };
 
 struct Line {
@@ -23,7 +23,7 @@ struct Line {
   double width = 0;
 };
 
-/// The two faces of STIX, and how markup (typesetter.hpp) becomes a line of their glyphs.
+/// The two faces of STIX. They turn markup (typesetter.hpp) into a line of glyphs.
 class Fonts {
  public:
   Fonts();  ///< throws Error where they cannot be read
@@ -31,7 +31,8 @@ class Fonts {
   Fonts(const Fonts&) = delete;
   Fonts& operator=(const Fonts&) = delete;
 
-  /// Throws Error for broken UTF-8, unbalanced markup or a character that STIX does not have.
+  /// Returns the line of a markup. Throws Error for broken UTF-8, unbalanced markup or a character
+  /// that STIX does not have.
   Line layout(const std::string& markup, double size) const;
 
  private:

@@ -10,17 +10,17 @@ namespace antilock::figures {
 /// Draws the sample of entry n within a box.
 using Swatch = std::function<void(std::size_t n, const Box& box)>;
 
-/// A legend of these names: in centred lines over the page's width, or one below the other in a
-/// box.
+/// A legend of these names: in centred lines over the width of the page, or one below the other in
+/// a box.
 class Legend {
  public:
   Legend(const Page& page, const std::vector<std::string>& names);
   std::size_t lines() const { return lines_.size(); }
   double height() const;
   void draw(Page& page, double bottom, const Swatch& swatch) const;
-  /// One entry per line, centred in the box.
+  /// Draws one entry per line, centred in the box.
   void draw_in(Page& page, const Box& box, const Swatch& swatch) const;
-  /// The width of a box that holds every entry.
+  /// Returns the width of a box that contains every entry.
   double column_width() const;
 
  private:

@@ -22,38 +22,41 @@ struct Stroke {
   std::vector<double> dashes = {};  ///< drawn, skipped, drawn, ... in pixels; empty: solid
 };
 
-/// One picture: three-dimensional scenes below, drawing above, text on top. White, units of pixels.
+/// One picture on white: three-dimensional scenes below, drawings above, text on top. Units are
+/// pixels.
 class Page {
  public:
-  static constexpr int width = 1920;  ///< of every picture, so that a size of type means the same in all of them
+  /// The width of every picture, so that a size of type means the same in all of them.
+  static constexpr int width = 1920;
 
   explicit Page(double height) : height_(static_cast<int>(height)) {}
   int height() const { return height_; }
 
   void line(const std::vector<Point>& points, const Stroke& stroke = {});
   void rectangle(const Box& box, const Stroke& stroke = {});
-  /// A filled convex polygon.
+  /// Draws a filled convex polygon.
   void fill(const std::vector<Point>& corners, const Colour& colour, double opacity = 1);
   void fill(const Box& box, const Colour& colour, double opacity = 1);
-  /// A filled marker of about the given diameter with a white rim; at one place, a smaller one
-  /// shows on a larger one.
+  /// Draws a filled marker of about the given diameter with a white rim. So a small one is visible
+  /// on a larger one at the same place.
   void marker(Point at, Marker shape, double size, const Colour& colour);
-  /// An arrow from one point to another, with a filled head.
+  /// Draws an arrow from one point to another, with a filled head.
   void arrow(Point from, Point to, const Stroke& stroke = {});
   void text(Point at, const std::string& markup, const TextStyle& style = {});
   double text_width(const std::string& markup, double size) const { return typesetter_.width(markup, size); }
   /// Shows a renderer in part of the page.
   void scene(vtkSmartPointer<vtkRenderer> renderer, const Box& where);
 
-  /// What is wrong with the texts, one line: too small, over each other, wider than allowed or off
-  /// the page (layout.hpp).
+  /// Returns the first fault of the texts in one line: too small, too near to each other, wider
+  /// than allowed or off the page (layout.hpp).
   std::optional<std::string> layout_fault() const;
-  /// The smallest em on the page, scripts included, in pixels of a picture shown `shown_width` wide
-  /// (layout.hpp).
+  /// Returns the smallest em on the page, scripts included, in pixels of a picture that is shown
+  /// `shown_width` wide (layout.hpp).
   double smallest_type() const;
 
-  /// Renders and writes a PNG file, whole or not at all. Throws Error where it cannot be written. Compression: 0 to 9; 9
-  /// takes twice as long as 8 and saves less than half a per cent, 1 takes a quarter of the time. `half`: of half the width and height.
+  /// Renders and writes a PNG file, whole or not at all. Throws Error where it cannot be written.
+  /// `compression` is 0 to 9: 9 takes twice as long as 8 and saves less than half a per cent, 1
+  /// takes a quarter of the time. `half` writes half of the width and height.
   void save(const std::filesystem::path& path, int compression = 8, bool half = false) const;
 
  private:

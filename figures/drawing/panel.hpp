@@ -6,8 +6,8 @@
 
 namespace antilock::figures {
 
-/// Sizes of type, in pixels of a page: 12 and 13 of a picture shown 480 wide, and 9 for the scripts
-/// of the smaller one.
+/// Sizes of type, in pixels of a page. In a picture that is shown 480 wide they are 12 and 13, and
+/// the scripts of the smaller one 9.
 constexpr double number_size = 48, name_size = 52;
 
 /// One frame of a chart: axes on a box of the page.
@@ -19,29 +19,30 @@ struct Panel {
   }
 };
 
-/// What stands around a frame; an empty name leaves the numbers of that axis away too (panels that
-/// share an axis).
+/// The texts around a frame. With an empty name the numbers of that axis are left out, too (for
+/// panels that share an axis).
 struct PanelNames {
   std::string title, x, y;
 };
 
-/// Grid lines, below the curves.
+/// Draws grid lines. It is called before the curves, which lie above them.
 void draw_grid(Page& page, const Panel& panel);
-/// The frame with ticks, numbers and names, above them.
+/// Draws the frame with ticks, numbers and names. It is called after the curves, and lies above
+/// them.
 void draw_frame(Page& page, const Panel& panel, const PanelNames& names);
 
-/// The width of the widest number of an axis.
+/// Returns the width of the widest number of an axis, in pixels.
 double widest_number(const Page& page, const Axis& axis);
 
-/// The room that the numbers and the name of a vertical axis take at the left of a frame, and those
-/// of a horizontal one below it, in pixels.
+/// The width of the numbers and the name of a vertical axis at the left of a frame, and the height
+/// of those of a horizontal axis below it, in pixels.
 double left_margin(const Page& page, const Axis& y);
 constexpr double foot_margin = 160;
-/// The room above a frame for its title.
+/// The height of the title above a frame, in pixels.
 constexpr double head_margin = 90;
 
-/// The boxes of `count` panels in an area, in rows of equal boxes, top left first. Three panels
-/// leave the fourth box of a square to the legend.
+/// Returns the boxes of `count` panels in an area, in rows of equal boxes, from the top left. With
+/// three panels the fourth box is free for the legend.
 std::vector<Box> arrange_panels(std::size_t count, const Box& area, double gap_x, double gap_y);
 std::size_t panel_columns(std::size_t count);
 std::size_t panel_rows(std::size_t count);

@@ -7,11 +7,12 @@ namespace antilock::figures {
 
 enum class Marker { circle, square, diamond, triangle, down_triangle, cross };
 
-/// Corners of a marker of diameter about 2 around the origin; the cross is drawn along its
-/// diagonals.
+/// Returns the corners of a marker of diameter about 2 around the origin. The cross is drawn along
+/// its diagonals.
 std::vector<Point> outline(Marker shape);
 
-/// Cuts a line into its dashes; the pattern is drawn, skipped, drawn, ... in pixels.
+/// Cuts a line into its dashes. The lengths of the pattern are drawn, skipped, drawn, ..., in
+/// pixels.
 std::vector<std::vector<Point>> dashed(const std::vector<Point>& points, const std::vector<double>& pattern);
 
 }  // namespace antilock::figures

@@ -11,7 +11,7 @@ namespace antilock::figures {
 
 class Fonts;
 
-/// Where the given place lies in a text: across from its left (0) to its right end (1), and on its
+/// The place of the anchor in a text: `across` from its left end (0) to its right end (1), and its
 /// height.
 struct Anchor {
   enum class Height { baseline, middle, top };
@@ -24,20 +24,21 @@ struct TextStyle {
   Anchor anchor = {};
   double angle = 0;  ///< degrees, counterclockwise
   Colour colour = {0.13, 0.13, 0.13};
-  std::optional<double> most = {};  ///< the width that the text must not exceed (a title: its panel's), in pixels
+  /// The width that the text must not exceed, in pixels (for a title that of its panel).
+  std::optional<double> most = {};
 };
 
-/// What a text covers on the page.
+/// The extent of a text on the page, in pixels.
 struct Extent {
   Box ink;              ///< around its glyphs
-  double smallest = 0;  ///< em of the smallest glyph: a text's size, or that of its scripts
+  double smallest = 0;  ///< em of the smallest glyph: that of the text or of its scripts
   double width = 0;     ///< along the text
 };
 
-/// Sets text in STIX, as a paper does, and draws it into a finished image (FreeType). Markup is
-/// UTF-8 with mathematics between dollars, as in `the layer $Ω_ε^−$, $u ≥ 0$`: there Latin and
-/// small Greek letters are italic, and `_` and `^` take one character or a {group} below and above
-/// the line (both: stacked).
+/// Sets text in STIX and draws it into a finished image (FreeType). Markup is UTF-8 with
+/// mathematics between dollars, as in `the layer $Ω_ε^−$, $u ≥ 0$`. In mathematics Latin and small
+/// Greek letters are italic, and `_` and `^` set one character or a {group} below and above the
+/// line (with both, one above the other).
 class Typesetter {
  public:
   Typesetter();  ///< throws Error where the fonts cannot be read
@@ -45,12 +46,12 @@ class Typesetter {
   Typesetter(Typesetter&&) noexcept;
   Typesetter& operator=(Typesetter&&) noexcept;
 
-  /// Pixels from the first to the last glyph, at angle 0. Throws Error for broken UTF-8 or
-  /// unbalanced markup.
+  /// Returns the pixels from the first to the last glyph, at angle 0. Throws Error for broken UTF-8
+  /// or unbalanced markup.
   double width(const std::string& markup, double size) const;
-  /// What the text covers; `at` is the place of its anchor. Throws Error likewise.
+  /// Returns the extent of the text; `at` is the place of its anchor. Throws Error likewise.
   Extent extent(Point at, const std::string& markup, const TextStyle& style) const;
-  /// Draws into an image of 3 components (unsigned char).
+  /// Draws the text into an image of 3 components (unsigned char).
   void draw(vtkImageData& image, Point at, const std::string& markup, const TextStyle& style) const;
 
  private:

@@ -10,27 +10,29 @@
 
 namespace antilock::figures {
 
-/// How much is written around an axes box: all of it, fewer numbers, or those alone.
+/// The amount of text around an axes box: all numbers and names; fewer numbers; fewer numbers and
+/// no names of body, layer and Sigma.
 enum class AxesDetail { full, few, least };
 
-/// The box around a surface: floor and the two walls behind, with grid lines at the ticks.
+/// The box around a surface: the floor and the two walls behind, with grid lines at the ticks.
 struct AxesBox {
   Eigen::AlignedBox3d space;
   Axis x, y, u;
-  double factor;  // height drawn for one unit of u
+  double factor;  // units of length that are drawn for one unit of u
   AxesDetail detail;
-  bool parts = true;  // body and layer meet at y = 0: Sigma and their names are drawn
+  // Whether body and layer meet at y = 0. Sigma, the line between them, and their names are then
+  // drawn.
+  bool parts = true;
 };
 
-/// The axes box of a domain (its x and y) and a range of u that is drawn `height` high.
+/// Returns the axes box of a domain (its x and y) and of a range of u that is drawn `height` high.
 AxesBox make_axes_box(const vtkBoundingBox& domain, const Range& range, double height, AxesDetail detail);
 
-/// Puts floor and walls into a scene, and Sigma on the floor; the eye looks from high x and low y.
+/// Adds floor and walls to a scene, and Sigma on the floor. The eye looks from high x and low y.
 void add_walls(vtkRenderer& renderer, const AxesBox& axes);
 
-/// Numbers and names along the front edges of the floor and the front edge of the left wall
-/// (`height`: what it measures), and the names of the domain's parts: the layer's where there is
-/// one.
+/// Draws numbers and names along the front edges of the floor and the front edge of the left wall
+/// (`height` is the name of the quantity there), and the names of body and, if there is one, layer.
 void label_axes(Page& page, const View& view, const AxesBox& axes, const std::string& height);
 
 }  // namespace antilock::figures

@@ -8,19 +8,20 @@
 
 namespace antilock::figures {
 
-/// Whether a row passes every filter `column=value`. Throws Error for a filter of another form.
+/// Returns whether a row satisfies every filter `column=value`. Throws Error for a filter of
+/// another form.
 bool selected(const CsvTable& table, std::size_t row, const std::vector<std::string>& filters);
 
-/// What the row's entries of these columns mean together.
+/// Returns the common meaning of the entries of a row in these columns.
 Meaning row_meaning(const CsvTable& table, std::size_t row, const std::vector<std::string>& columns);
 
-/// The different meanings of the rows of a table, such as those that make panels, ordered by their
-/// ranks.
+/// The distinct meanings of the rows of a table, for example those that make panels, ordered by
+/// their ranks.
 class Meanings {
  public:
-  /// Keeps a meaning unless there is one of that name.
+  /// Adds a meaning unless there is one of that name.
   void add(Meaning meaning);
-  /// The long names if they pass `fit`, otherwise the short ones.
+  /// Returns the long names if they satisfy `fit`, and otherwise the short ones.
   std::vector<std::string> names(const std::function<bool(const std::vector<std::string>&)>& fit) const;
 
   std::size_t size() const { return meanings_.size(); }

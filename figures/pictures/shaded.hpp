@@ -10,12 +10,12 @@
 
 namespace antilock::figures {
 
-/// The surface of a solution lifted to (x, y, factor * u).
+/// Returns the surface of a solution with its points at (x, y, factor * u).
 vtkSmartPointer<vtkPolyData> lifted(const vtkSmartPointer<vtkPolyData>& flat, double factor);
 
-/// Adds a surface in viridis over the range with its mesh in fine transparent lines, or with the
-/// lines x, y = k / grid. Where u jumps from triangle to triangle, the walls of the steps close the
-/// surface.
+/// Adds a surface in the colours of viridis over the range, with the lines of its mesh (fine and
+/// transparent) or with the lines x, y = k / grid. Where u jumps from triangle to triangle,
+/// vertical walls close the surface.
 void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface, const Range& range,
                  const std::optional<int>& grid, const Eigen::Vector3d& towards_eye);
 

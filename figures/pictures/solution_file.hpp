@@ -8,22 +8,24 @@
 
 namespace antilock::figures {
 
-/// Reads a VTU file of triangles with point data `u`: a surface in the plane z = 0 whose scalars
-/// are u. Throws Error, naming the file, for one that is missing, malformed, of other cells, or
-/// whose u is absent or not finite.
+/// Reads a VTU file of triangles with point data `u`. Returns a surface in the plane z = 0 whose
+/// scalars are u. Throws Error with the name of the file if the file is missing or malformed, has
+/// other cells, or has no u or one that is not finite.
 vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path);
 
-/// The same for a deformed body: cell data `pressure` are the cells' scalars, point data
-/// `displacement` (three components) say how the points got where they are.
+/// Does the same for a deformed body: the cell data `pressure` are the scalars of the cells, and
+/// the point data `displacement` (three components) are the displacements of the points.
 vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path);
 
-/// The smallest and the largest u of a solution.
+/// Returns the smallest and the largest u of a solution.
 Range range_of(vtkPolyData& solution);
-/// Whether no triangle crosses y = 0, where body and layer meet. A layer along the normals of a curve does cross it.
+/// Returns whether no triangle crosses y = 0, where body and layer meet. A layer along the normals
+/// of a curve does cross it.
 bool parts_at_zero(vtkPolyData& solution);
-/// The smallest range that holds both.
+/// Returns the smallest range that contains both.
 Range joined(const Range& a, const Range& b);
-/// The range drawn for data: their own, or [low, low + 1] where all of them are equal (u = 0, say).
+/// Returns the range to draw for data: their own, or [low, low + 1] where all of them are equal
+/// (for example u = 0).
 Range drawn(const Range& data);
 
 }  // namespace antilock::figures

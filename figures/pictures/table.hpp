@@ -6,20 +6,21 @@
 
 namespace antilock::figures {
 
-/// A CSV file in memory: one header line, then rows of as many fields; a field may stand in double
-/// quotes.
+/// A CSV file in memory: one header line, then rows with the same number of fields. A field may be
+/// in double quotes.
 class CsvTable {
  public:
-  /// Throws Error, naming file and line, for a file that is missing, empty, without rows or ragged.
+  /// Throws Error with file and line if the file is missing, empty, without rows, or has rows of
+  /// different lengths.
   explicit CsvTable(const std::filesystem::path& path);
 
   std::size_t rows() const { return rows_.size(); }
-  /// Throws Error where there is no such column.
+  /// Returns an entry. Throws Error where there is no such column.
   const std::string& text(std::size_t row, std::string_view column) const;
-  /// A number; `nan` and `inf` are accepted and mean a run without an answer. Throws Error for
-  /// anything else.
+  /// Returns an entry as a number. `nan` and `inf` are accepted and mean a run without a solution.
+  /// Throws Error for anything else.
   double number(std::size_t row, std::string_view column) const;
-  /// The different entries of a column, in the order in which they come.
+  /// Returns the distinct entries of a column, in the order of their first rows.
   std::vector<std::string> values(std::string_view column) const;
 
  private:

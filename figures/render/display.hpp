@@ -3,12 +3,13 @@
 
 namespace antilock::figures {
 
-/// A connection to the X display, without which VTK would end the process. Keep it as long as
-/// anything is rendered: a virtual display starts afresh when its last client leaves, and refuses
-/// clients meanwhile.
+/// A connection to the X display, without which VTK would end the process. It must exist while
+/// anything is rendered, because a virtual display restarts when its last client disconnects, and
+/// refuses clients meanwhile.
 using DisplayConnection = std::shared_ptr<void>;
 
-/// Throws Error, saying what to do, unless a display answers within two seconds.
+/// Connects to the display. Throws Error, with the remedy, unless a display replies within two
+/// seconds.
 DisplayConnection connect_display();
 
 }  // namespace antilock::figures

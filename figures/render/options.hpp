@@ -9,7 +9,7 @@
 
 namespace antilock::figures {
 
-/// What the command line asks for; each subcommand fills its part.
+/// The options of the command line. Each subcommand fills those that it has.
 struct Request {
   std::string out, title;
   std::vector<std::string> inputs, titles;
