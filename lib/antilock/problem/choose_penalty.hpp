@@ -15,7 +15,8 @@ struct StiffnessRatio {
   /// Returns s = (trace_a0 / trace_a1)^(1/3) (max_a0 / max_a1)^(2/3), or 1 where this is not a
   /// positive number. Where A1 and B both hold first derivatives (the layer, rubber), s is about 1.
   /// In a beam and in an adhesive layer, rows of B hold unknowns without a derivative, and s
-  /// depends on the mesh. The exponents are fitted to the models of this library.
+  /// depends on the mesh. This is a heuristic scaling of the augmented Lagrangian: the exponents
+  /// are fitted to the models of this library, and choose_penalty.cpp has the measurements.
   double value() const;
 };
 StiffnessRatio stiffness_ratio(const VariationalInequality& problem);
@@ -24,10 +25,10 @@ StiffnessRatio stiffness_ratio(const VariationalInequality& problem);
 ///
 ///     delta = 6e-8 s,   s = StiffnessRatio::value(),
 ///
-/// and 1 / delta is the penalty stiffness. Scaling A1 by t > 0 scales delta by 1 / t, and scaling M
-/// by t scales it by t. The solution does not depend on delta: a larger one needs more outer
-/// iterations, a smaller one leaves the factor of A1 + delta^-1 B' M B fewer digits of A1.
-/// choose_penalty.cpp has the measurements behind 6e-8.
+/// and 1 / delta is the penalty stiffness. So a larger delta is a softer penalty. Scaling A1 by t >
+/// 0 scales delta by 1 / t, and scaling M by t scales it by t. The solution does not depend on
+/// delta: a larger one needs more outer iterations, a smaller one leaves the factor of A1 +
+/// delta^-1 B' M B fewer digits of A1. choose_penalty.cpp has the measurements behind 6e-8.
 constexpr double default_penalty = 6e-8;
 inline double choose_penalty(const StiffnessRatio& s) { return default_penalty * s.value(); }
 inline double choose_penalty(const VariationalInequality& problem) { return choose_penalty(stiffness_ratio(problem)); }

@@ -44,7 +44,7 @@ struct ActiveSetOptions {
 /// whether the element locks. `solve` (analysis/solve.hpp) reports that.
 ///
 /// There are two nested loops. The outer one is the iterated penalty method: the proximal point
-/// method on the dual problem for the layer stress p = compliance^-1 B u (R. T. Rockafellar, SIAM
+/// method on the dual problem for the multiplier p = compliance^-1 B u (R. T. Rockafellar, SIAM
 /// J. Control Optim. 14, 1976). It corrects u and p by one Cholesky factor of
 /// K = A1 + delta^-1 B' M B, where delta >= compliance is the penalty. The inner loop is the active
 /// set method of contact.hpp: it finds the contact set of each correction. With L the load and
@@ -91,10 +91,11 @@ Solution active_set(const VariationalInequality& problem, const ActiveSetOptions
 Solution active_set(const VariationalInequality& problem, PenalisedCholesky& factor,
                     const ActiveSetOptions& options = {});
 
-/// Solves the contact problem of one correction, in which v and lambda are increments to the
-/// current iterate. The factor determines whether the system is a SchurComplementContact or a
-/// SparseContact. `before` is the result of the last correction, and is empty in the first one.
-/// `u_scale` is the largest |u|.
+/// Solves the contact problem of one correction, in which v is an increment to the current iterate.
+/// The forces of `before` and of the result are total forces: Bounds holds those of the current
+/// iterate as a multiplier estimate. The factor determines whether the system is a
+/// SchurComplementContact or a SparseContact. `before` is the result of the last correction, and is
+/// empty in the first one. `u_scale` is the largest |u|.
 using ContactSolver =
     std::function<ContactResult(ContactSystem&, const Bounds&, const ContactResult& before, double u_scale)>;
 

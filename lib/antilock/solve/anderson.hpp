@@ -11,7 +11,8 @@ namespace antilock {
 
 /// Anderson's acceleration of a fixed-point iteration x -> x + g(x): the next start is the affine
 /// combination of the last few iterates for which the norm of the combined steps g is smallest (D.
-/// G. Anderson, J. ACM 12, 1965). For a linear iteration it is equivalent to GMRES.
+/// G. Anderson, J. ACM 12, 1965). For a linear iteration with all iterates kept it is equivalent to
+/// GMRES (H. F. Walker and P. Ni, SIAM J. Numer. Anal. 49, 2011).
 ///
 /// Mixing leaves the iteration matrix T of plain steps unchanged: near the solution a plain step
 /// multiplies the error of x by T, whatever the start. So a plain step after a mix still reduces

@@ -63,7 +63,8 @@ double factor_roundoff(const VariationalInequality& problem, const PenalisedChol
 /// diagonal of A1 + B' M B, and then the rows of B by their norms. Rows whose distance is below
 /// defaults::row_tolerance count as equal.
 struct ConstraintDefect {
-  /// max |v|, where v is the step that removes r2 and is the shortest in the norm of that diagonal.
+  /// max |v|, where v is the step that removes r2 and is the shortest in the norm of that diagonal:
+  /// a minimum-norm least squares step (G. H. Golub and C. F. Van Loan, Matrix Computations, 5.5).
   /// It estimates the error of u that r2 represents. Along a singular value s of B a residual of
   /// 1e-15 is an error of 1e-15 / s in u, and the next correction hardly changes it. A row of
   /// compliance c > 0 has an additional unknown with the coefficient sqrt(c / m), which regularises
@@ -83,11 +84,12 @@ struct ConstraintDefect {
 ConstraintDefect constraint_defect(const VariationalInequality& problem, const Eigen::VectorXd& constraint_residual,
                                    const BoundStatuses& status);
 
-/// Adds to result.error, which is absolute here, the errors of u that no correction shows. The
-/// first one is the round-off of forces p that are too large for 106 bits. If it is above 1e-9 U, U
-/// of kkt.hpp, result.warning is set, and the second one is not computed. The second one is the
-/// constraint defect of nearly dependent rows of B. If it is above 1e-9 U, result.warning is set as
-/// well. Throws NotConverged where the defect proves that no u of this size is admissible.
+/// Adds to result.error, which is absolute here, the errors of u that iterative refinement cannot
+/// see, because they do not show in the size of the corrections. The first one is the round-off of
+/// forces p that are too large for 106 bits. If it is above 1e-9 U, U of kkt.hpp, result.warning is
+/// set, and the second one is not computed. The second one is the constraint defect of nearly
+/// dependent rows of B. If it is above 1e-9 U, result.warning is set as well. Throws NotConverged
+/// where the defect proves that no u of this size is admissible.
 void add_conditioning_error(const VariationalInequality& problem, const PenalisedCholesky& factor,
                             const Eigen::VectorXd& constraint_residual, Solution& result);
 

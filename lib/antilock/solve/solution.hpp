@@ -39,7 +39,8 @@ struct SolveSeconds {
 struct Solution {
   std::string solver;
   Eigen::VectorXd u;  ///< N, the prescribed unknowns included
-  Eigen::VectorXd p;  ///< R, the layer stress compliance^-1 B u, which is finite at compliance = 0
+  /// R: the multiplier compliance^-1 B u (in a layer its stress), finite at compliance = 0.
+  Eigen::VectorXd p;
   /// C contact forces, >= 0 at a lower bound and <= 0 at an upper one. measure/ turns them into
   /// densities.
   Eigen::VectorXd lambda;
