@@ -11,11 +11,11 @@ namespace antilock {
 // and six random characters. From there they move to their destination by renaming, within one file
 // system. If an error or one of the signals SIGINT, SIGTERM and SIGHUP ends the writing, the draft
 // is removed with everything in it. The program ends by such a signal after the last draft has been
-// removed, unless it handles the signal itself. Only SIGKILL or a power cut leaves a draft behind,
-// which no later process changes.
+// removed, unless it handles the signal itself. Another signal, such as SIGKILL, SIGQUIT or
+// SIGSEGV, or a power cut may leave a draft behind, which no later process changes.
 
-/// Writes a whole file or none: `write` fills a stream, whose file then takes the place of `path`
-/// in one rename. Missing folders are made. Numbers are written with 17 significant digits. Throws
+/// Writes a whole file or none. `write` fills the stream of a temporary file, which is then renamed
+/// to `path`. Missing folders are made. Numbers are written with 17 significant digits. Throws
 /// Error where the folder cannot be written.
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 

@@ -27,9 +27,9 @@ struct NotConverged : Error {
 };
 
 /// Returns text from a file or a command line for use in a message of one line. Characters of UTF-8
-/// stay as they are. A control character, one that changes the direction or the line of the text,
-/// and each byte that is not UTF-8 become '?'. Text of more than `longest` characters is cut and
-/// ends in "...".
+/// stay as they are. Control characters, characters that change the direction of the text or begin
+/// a new line, and bytes that are not UTF-8 become '?'. Text of more than `longest` characters is
+/// cut and ends in "...".
 std::string printable(std::string_view text, std::size_t longest = 60);
 
 /// Returns the first character of a text in UTF-8, of one to four bytes. If the first byte does not

@@ -6,8 +6,8 @@
 
 namespace antilock {
 
-/// The size in bytes of the buffer that OpenBLAS maps for each of its threads: its BUFFER_SIZE on
-/// x86-64, the largest of all processors, plus one page.
+/// The size in bytes of the buffer that OpenBLAS maps for each of its threads. It is the
+/// BUFFER_SIZE of x86-64, the largest of all processors, plus one page.
 constexpr std::size_t blas_buffer = (std::size_t{128} << 20) + (1 << 12);
 
 /// Returns whether the limits of the process (ulimit -v, ulimit -d) leave room for so many bytes at
@@ -15,16 +15,18 @@ constexpr std::size_t blas_buffer = (std::size_t{128} << 20) + (1 << 12);
 /// initialised.
 bool can_map(std::size_t bytes);
 
-/// Throws NotConverged, `what` first, where `bytes` more are not available. The limits of the
-/// process (ulimit -v, ulimit -d) are tested by a mapping that is released at once. From 64 MB on,
-/// the limits of its control groups (those of a container) are read as well, since the kernel
-/// grants more than they allow and kills the process later. Returns where neither limit is known.
+/// Throws NotConverged, whose message begins with `what`, where `bytes` more bytes are not
+/// available. The limits of the process (ulimit -v, ulimit -d) are tested by a mapping that is
+/// released at once. From 64 MB on, the limits of its control groups (those of a container) are
+/// read as well, since the kernel grants more than they allow and kills the process later. Where
+/// neither limit is known, it does nothing.
 void require_memory(std::size_t bytes, const std::string& what);
 
-/// Returns the bytes that this process may still use: the smallest remainder of its control groups
-/// and of their parents. It reads version 2, or the memory controller of version 1. Files that the
-/// kernel keeps in memory count as free. Empty where there is no limit. `groups` is /sys/fs/cgroup,
-/// `own` is /proc/self/cgroup.
+/// Returns the bytes that this process may still use. Each control group of the process, and each
+/// parent of one, leaves its limit minus its usage; the result is the smallest of these. It reads
+/// version 2, or the memory controller of version 1. Files that the kernel keeps in memory count as
+/// free. The result is empty where there is no limit. `groups` is /sys/fs/cgroup, `own` is
+/// /proc/self/cgroup.
 std::optional<double> left_by_control_groups(const std::filesystem::path& groups, const std::filesystem::path& own);
 
 /// While an object of this class exists, its thread may call the BLAS. OpenBLAS maps a buffer of at

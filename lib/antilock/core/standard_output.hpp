@@ -9,8 +9,8 @@ namespace antilock {
 void require_output();
 
 /// Returns the exit status of a program. If `status` is 0 and require_output() throws, it prints
-/// one line on standard error, `program` first, and returns 2. Otherwise it returns `status`.
-/// `main` calls it last.
+/// one line that begins with `program` on standard error, and returns 2. Otherwise it returns
+/// `status`. `main` calls it last.
 int delivered(int status, const std::string& program);
 
 /// Opens those of the descriptors 0 to 2 that the program was started without, so that reading and

@@ -7,7 +7,7 @@ namespace antilock {
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  /// Returns the same and begins a new lap.
+  /// Returns seconds() and begins a new lap.
   double lap() {
     const double elapsed = seconds();
     start_ = std::chrono::steady_clock::now();
