@@ -29,12 +29,13 @@ TriangleMesh structured_mesh(int cells, const Domain& domain = {}, Diagonal diag
 /// triangle may turn over.
 TriangleMesh jittered_mesh(int cells, double amount);
 
-/// Two lattices. The layer of rows_mesh has `rows` rows of isosceles triangles. Their bases are
-/// horizontal, of length 1/cells, and alternately below and above, so that no inner edge is
-/// vertical. The layer of columns_mesh is the same turned by 90 degrees, in `columns` columns. The
-/// triangles of a layer are congruent, except for the halves at the ends of each row or column. The
-/// body has rectangles, each cut by a diagonal, which meet the vertices of the layer on Sigma. Both
-/// throw Error unless 1 <= cells <= 2048 and 1 <= rows, columns <= 4096.
+/// The layers of the next two meshes are regular lattices. The layer of rows_mesh has `rows` rows
+/// of isosceles triangles. Their bases are horizontal, of length 1/cells, and alternately below and
+/// above, so that no inner edge is vertical. The layer of columns_mesh is the same turned by 90
+/// degrees, in `columns` columns. The triangles of a layer are congruent, except for the halves at
+/// the ends of each row or column. The body has rectangles, each cut by a diagonal, which meet the
+/// vertices of the layer on Sigma. Both throw Error unless 1 <= cells <= 2048 and 1 <= rows,
+/// columns <= 4096.
 TriangleMesh rows_mesh(int cells, int rows);
 TriangleMesh columns_mesh(int cells, int columns);
 
@@ -43,10 +44,11 @@ enum class Mesher { mesh_adapt = 1, delaunay = 5, frontal = 6 };  ///< gmsh's ow
 /// Returns the unstructured mesh of Figure 6, by gmsh (one thread, fixed seed): the same mesh in
 /// every call. Frontal-Delaunay begins at the boundary, so that most triangles of the layer have a
 /// vertical edge. Delaunay and MeshAdapt avoid this. In a thin layer the cells shrink to half of
-/// its depth. Beyond 128 cells gmsh makes the mesh with cells / 2^k, k at most 3: the first that is
-/// at most 80, or the last that leaves a layer one cell deep. Every triangle is then cut into four
-/// by its midpoints, k times. So the angles are those of the coarse mesh, and inside of its
-/// triangles the mesh is regular. Throws Error unless 1 <= cells <= 512.
+/// its depth. Beyond 128 cells gmsh makes a coarser mesh with cells / 2^k, k at most 3. k is the
+/// smallest number for which this is at most 80, unless the cells of a layer would then be deeper
+/// than the layer. In that case k is the largest number for which they are not. Every triangle is
+/// then cut into four by its midpoints, k times. So the angles are those of the coarse mesh, and
+/// inside of its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512.
 TriangleMesh unstructured_mesh(int cells, const Domain& domain = {}, Mesher mesher = Mesher::frontal);
 
 /// Returns a mesh of the disc of radius 1 with a clamped rim: 6 rings^2 triangles with edges of

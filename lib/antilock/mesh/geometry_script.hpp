@@ -15,16 +15,16 @@ namespace antilock {
 /// and in whatever order the words are, they can name no file and start no program. Tokens keep
 /// their lines, so that the messages of gmsh name the right line.
 ///
-/// An index outside of 0 to 1e6 is replaced by a division by zero, which gmsh reports, because gmsh
-/// would write outside of its list.
+/// With an index outside of 0 to 1e6 gmsh would write outside of its list. Therefore such an index
+/// is replaced by a division by zero, which gmsh reports as an error.
 ///
 /// Comments are left out. Statements that concern the mesh alone are left out, too: Mesh, Physical,
 /// Field, Characteristic Length, Transfinite and the like, and Printf without a file. They may not
-/// contain a command that draws, or change a variable. Numbers that depend on the statements left
-/// out are refused, for example newl behind a Physical group. Accepted beyond that: variables,
-/// lists, For, DefineConstant, arithmetic, points, curves, surfaces, solids, transformations,
-/// Boolean operations and numbers of Geometry. Throws Error, `line N: NAME: ...`, for anything
-/// else.
+/// contain a command that draws, or change a variable. Numbers that depend on a statement that was
+/// left out are refused. An example is newl, the next free number of a line, after a Physical
+/// group. Also accepted are variables, lists, For, DefineConstant, arithmetic, points, curves,
+/// surfaces, solids, transformations, Boolean operations and numbers of Geometry. Throws Error,
+/// `line N: NAME: ...`, for anything else.
 std::string geometry_script(const std::string& text);
 
 /// Returns the words that geometry_script may write, except for numbers, signs, kernels and

@@ -4,9 +4,9 @@
 namespace antilock {
 
 /// Returns the triangles of the body over a layer (-1 < y < 0) in columns: one column under every
-/// edge of Sigma, cut into ceil(epsilon / h) rows, with h the mean width of the columns. With them
-/// the cells are about square in the true layer of thickness epsilon. Each cell is cut by a
-/// diagonal (/).
+/// edge of Sigma, cut into ceil(epsilon / h) rows, where h is the mean width of the columns. With
+/// this number of rows the cells are about square in the true layer of thickness epsilon. Each cell
+/// is cut by a diagonal (/).
 ///
 /// `body` is a mesh of any body on or above Sigma, a part of the line y = 0. Sigma consists of its
 /// edges with the tag contact. The vertices and triangles of the body come first, in their order,
@@ -16,11 +16,11 @@ namespace antilock {
 /// layer stress, so that P1 does not lock on this mesh. Throws Error unless 0 <= epsilon <= 1, for
 /// a body below y = 0, for one without Sigma and for one with a layer.
 ///
-/// With `along_normals` Sigma may be a curve below the body that has each x once. The layer of
-/// thickness t = epsilon is then gamma(s) + t d n(s), 0 < d < 1, with s the length along Sigma and
-/// n the normal out of the body. With c the curvature of Sigma and J = 1 + t c d, the area element
-/// is t J ds dd, and the derivatives are d_s / J along and d_d / t across. So the energy of a layer
-/// of modulus 1 / t, (22), becomes that of (23) with two weights:
+/// With `along_normals` Sigma, the lower side of the body, may be curved, as the graph of a
+/// function of x. The layer of thickness t = epsilon is then gamma(s) + t d n(s), 0 < d < 1, with s
+/// the length along Sigma and n the normal out of the body. With c the curvature of Sigma and J = 1
+/// + t c d, the area element is t J ds dd, and the derivatives are d_s / J along and d_d / t
+/// across. So the energy of a layer of modulus 1 / t, (22), becomes that of (23) with two weights:
 ///
 ///     int u_s^2 / J + t^-2 J u_d^2 ds dd.
 ///

@@ -15,11 +15,11 @@ struct ExtraGroups {
   std::vector<std::string> bodies = {};
 };
 /// Reads a file of MSH 2.2 or 4.1 (ASCII) with the physical groups body, clamped, contact and, with
-/// a layer, layer and sigma. The group sigma may be absent: it is where body meets layer. `part`
-/// receives for each triangle the index of its group in `more.bodies`, or -1. Throws Error or
-/// MeshError, `name` first, for a file that is missing, binary, truncated or of another version,
-/// for other elements than points, lines and triangles, for unknown or missing groups, and where
-/// make_triangle_mesh throws.
+/// a layer, layer and sigma. The group sigma may be absent, because its edges are those between
+/// body and layer. `part` receives for each triangle the index of its group in `more.bodies`, or
+/// -1. Throws Error or MeshError, whose message begins with `name`, for a file that is missing,
+/// binary, truncated or of another version, for other elements than points, lines and triangles,
+/// for unknown or missing groups, and where make_triangle_mesh throws.
 TriangleMesh read_msh(const std::string& path, const ExtraGroups& more = {}, std::vector<int>* part = nullptr);
 TriangleMesh read_msh(std::istream& in, const std::string& name, const ExtraGroups& more = {},
                       std::vector<int>* part = nullptr);

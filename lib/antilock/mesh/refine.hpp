@@ -9,14 +9,14 @@ namespace antilock {
 TriangleMesh refined(const TriangleMesh& mesh);
 
 /// Puts new vertices on the curves of the geometry of the mesh. `middle` has one entry per edge e:
-/// the row of `vertices` in the middle of e, or -1. Where an edge of the boundary of the body has
-/// its ends on a curve, its middle moves to the nearest point of that curve. Contact and Sigma
-/// edges stay on their line. Without a geometry nothing moves. Throws Error where gmsh cannot read
-/// the geometry, and for an edge whose ends are on no curve of it. A triangle that turns over is
-/// detected later, when the mesh is made.
+/// the index of the row of `vertices` that holds the midpoint of e, or -1 if e has no midpoint.
+/// Where an edge of the boundary of the body has its ends on a curve, its middle moves to the
+/// nearest point of that curve. Contact and Sigma edges stay on their line. Without a geometry
+/// nothing moves. Throws Error where gmsh cannot read the geometry, and for an edge whose ends are
+/// on no curve of it. A triangle that turns over is detected later, when the mesh is made.
 void follow_geometry(const TriangleMesh& mesh, const std::vector<int>& middle, Points& vertices);
-/// Returns a name of the refined mesh for messages: `how`, and for a mesh with a geometry the
-/// probable reason of an error.
+/// Returns the text by which messages call the refined mesh. It is `how`. For a mesh with a
+/// geometry the probable reason of an error is appended.
 std::string refinement_name(const TriangleMesh& mesh, const std::string& how);
 
 }  // namespace antilock

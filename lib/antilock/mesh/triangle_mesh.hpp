@@ -72,7 +72,8 @@ struct CurvedColumn {
 };
 
 /// A conforming mesh of Omega (Figure 2): positively oriented triangles, numbered edges, tagged
-/// boundary. Lengths are dimensionless (the side of the body is 1).
+/// boundary. Lengths are in the unit of the coordinates (body_size). In the generated meshes of
+/// Figure 2 the side of the body is 1.
 struct TriangleMesh {
   Points vertices;             ///< V x 2
   Triples triangles;           ///< T x 3 vertices, counterclockwise
@@ -112,10 +113,10 @@ struct TaggedEdge {
 /// fractions of this size. For a mesh without a body it is the longer side of the whole box.
 double body_size(const TriangleMesh& mesh);
 
-/// Numbers the edges and checks all properties on which a finite element relies. `surface` has a
-/// number, from 0 on, per triangle. If all triangles of a surface have the wrong orientation, they
-/// are turned round. Where `surface` is empty, the regions are the surfaces. `where` is the
-/// beginning of every message (a file name, or the name of a generator).
+/// Numbers the edges and checks all properties on which a finite element relies. `surface` gives
+/// for each triangle the number (0, 1, ...) of its surface. If all triangles of a surface have the
+/// wrong orientation, they are turned round. Where `surface` is empty, the regions are the
+/// surfaces. `where` is the beginning of every message (a file name, or the name of a generator).
 ///
 /// Throws Error for indices out of range, values that are not finite, a single inverted triangle,
 /// degenerate triangles (twice the area below 1e-14 of the longest edge squared), duplicate or
