@@ -26,8 +26,9 @@ class Anderson {
   /// to five were observed in locked P1. Each iterate costs vectors of the sizes of u and p.
   static constexpr std::size_t depth = 6;
 
-  /// Adds a plain step from some start x to the history: `iterate` = x + g, the step g, and
-  /// `affine_image`, a second vector that depends affinely on x (u, where x is p).
+  /// Adds a plain step to the history. From a start x the step g leads to `iterate` = x + g.
+  /// `affine_image` is a second vector that depends affinely on x. (In active_set x is p, and this
+  /// vector is u.)
   void push(const DoubleDoubleVector& iterate, const Eigen::VectorXd& g, const DoubleDoubleVector& affine_image) {
     past_.push_front({iterate, affine_image, g});
     if (past_.size() > depth) past_.pop_back();

@@ -52,8 +52,8 @@ struct ContactResult {
 ///
 /// over all v with lower_i <= v_i <= upper_i at the hard bounds i. The sum is over the bounds with
 /// a force limit g_i. Equivalently lambda = K v - q, and each pair (v_i, lambda_i) satisfies the
-/// law of bound i (bound_status.hpp). Where Bounds has a multiplier estimate, q stands here for q
-/// minus the estimate.
+/// law of bound i (bound_status.hpp). If Bounds has a multiplier estimate, the q of these formulas
+/// is the q of the system minus the estimate, and lambda is the total force.
 ///
 /// The method is an active set method with a projected search. A status prescribes either the value
 /// or the force of its bound. The *face* of given statuses is the set of all v with v_i at its
@@ -114,14 +114,15 @@ struct ContactResult {
 ///
 /// (e) Between two releases J falls strictly. First let w' be in the face. Then v is set to w', and
 /// J falls by d' K d / 2. Otherwise v moves towards w'. If the first breakpoint is not v itself, J
-/// falls strictly, because w' is the only minimiser of Q and is not v. If it is v itself, some
-/// values are at the end of their range already, and w' is beyond it. A step of positive length is
-/// taken only if J falls strictly. Otherwise the step has the length 0: the bounds of these values
-/// become active, and v and J stay. Some of these bounds may be released ones. But a bound with a
-/// negative term in (d) is not among them, because its value moves into its range. So at least one
-/// bound is still released. (d) holds again for the next w' and for the bounds that are still
-/// released, because d_i is 0 at each bound that has become active. Each step of length 0 makes a
-/// bound active, so there are at most C of them, and then J falls strictly.
+/// falls strictly, because w' is the only minimiser of Q and is not v. If the first breakpoint is v
+/// itself, some values are already at the end of their ranges, and the corresponding values of w'
+/// are outside of these ranges. A step of positive length is taken only if J falls strictly.
+/// Otherwise the step has the length 0: the bounds of these values become active, and v and J stay.
+/// Some of these bounds may be released ones. But a bound with a negative term in (d) is not among
+/// them, because its value moves into its range. So at least one bound is still released. (d) holds
+/// again for the next w' and for the bounds that are still released, because d_i is 0 at each bound
+/// that has become active. Each step of length 0 makes a bound active, so there are at most C of
+/// them, and then J falls strictly.
 ///
 /// (f) So J is strictly lower at every release than at the one before. At a release v = w, and J(w)
 /// depends on the statuses alone. There are finitely many statuses. Therefore the iteration ends.

@@ -10,11 +10,11 @@ namespace antilock::defaults {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// The relative round-off of a sum: a sum of n rounded terms loses about sqrt(n) eps of them, and
-/// 64 eps serves rows of 4096 entries. Three uses: a force is known up to round_off times the sum
-/// of its absolute terms. A pivot below round_off times its diagonal entry is round-off (sound
-/// problems stay above 1e-12, on meshes and layers of every kind tried). With a penalty below
-/// round_off times the stiffness ratio of B' M B and A1, a factor keeps fewer than two digits of
-/// A1.
+/// 64 eps serves rows of 4096 entries. It is used three times. First, a force is known up to
+/// round_off times the sum of the absolute values of its terms. Second, a pivot below round_off
+/// times its diagonal entry is round-off (sound problems stay above 1e-12, on meshes and layers of
+/// every kind tried). Third, with a penalty below round_off times the stiffness ratio of B' M B and
+/// A1, a factor keeps fewer than two digits of A1.
 constexpr double round_off = 64 * eps;
 
 /// The relative difference that rounding leaves between two rows of B that are equal in exact
@@ -27,9 +27,9 @@ constexpr double round_off = 64 * eps;
 constexpr double row_tolerance = 8 * eps;
 
 /// The number of rows of B up to which constraint_defect (forward_error.hpp) looks for nearly
-/// dependent ones. It also requires that the problem has at most 10 max_rows_for_qr unknowns. Its
-/// dense QR of 200 x 2,200 (with one column per row for its compliance) takes some 2 200^2 2,200
-/// products, tens of milliseconds.
+/// dependent ones. It also requires that the problem has at most 10 max_rows_for_qr unknowns. The
+/// dense QR of a matrix of 200 x 2,200 (one column per unknown, and one per row for its compliance)
+/// takes about 2 200^2 2,200 = 1.8e8 products, which is tens of milliseconds.
 constexpr int max_rows_for_qr = 200;
 
 /// The default for the number of all corrections together: 15 with each of four penalties, and the
@@ -41,9 +41,10 @@ constexpr int max_corrections = 100;
 /// (measured at 1/h = 128).
 constexpr int corrections_per_penalty = 15;
 
-/// The factor by which the next penalty is smaller, and by which it is larger where K has no
-/// positive pivots. A correction contracts like delta / (delta + sigma), sigma an eigenvalue of a0
-/// against a1: 0.9 becomes 0.12.
+/// The next penalty is the last one divided by this number. If a pivot of K is not positive, the
+/// penalty is multiplied by this number. A correction multiplies an error by about delta / (delta +
+/// sigma), where sigma is an eigenvalue of a0 relative to a1. If this factor was 0.9, it is 0.12
+/// with the next penalty.
 constexpr double penalty_reduction = 64;
 
 /// Measured contractions are clamped to [1 - max_contraction, max_contraction]. A slower iteration
@@ -51,15 +52,16 @@ constexpr double penalty_reduction = 64;
 constexpr double max_contraction = 1 - 1.0 / max_corrections;
 
 /// The smallest penalty of rows of B with fixed compliances, relative to that of the parametric
-/// rows (PenalisedCholesky::penalties). Where three stiffnesses lie far apart, two of them in such
-/// rows, a correction contracts like penalty / (penalty + compliance of the softer row). With a
-/// smaller penalty more rows have their own compliance as penalty, and these converge at once. 1e-3
-/// of the default 6e-8 leaves the factor five digits of A1.
+/// rows (PenalisedCholesky::penalties). Suppose that three stiffnesses lie far apart, and that two
+/// of them are in such rows. Then a correction multiplies the error by about penalty / (penalty +
+/// compliance of the softer row). With a smaller penalty more rows have their own compliance as
+/// penalty, and these converge at once. 1e-3 of the default 6e-8 leaves the factor five digits of
+/// A1.
 constexpr double fixed_row_penalty_ratio = 1e-3;
 
 /// The stiffness of the equality row that couples c . u to its slack variable w, relative to that
-/// of c . u (slack_form.hpp). A correction leaves about 1/4096 of the distance between the two, as
-/// if delta had been reduced twice.
+/// of c . u (slack_form.hpp). A correction leaves about 1/4096 of the difference of c . u and w.
+/// The factor is penalty_reduction squared, as after two reductions of delta.
 constexpr double slack_stiffness_ratio = penalty_reduction * penalty_reduction;
 
 }  // namespace antilock::defaults

@@ -5,8 +5,8 @@
 
 namespace antilock {
 
-/// Returns Eigen's simplicial factor, which needs neither CHOLMOD nor a BLAS. AMD orders the rows
-/// that are not to stay last. A browser uses it as the default (host/stubs.cpp of
+/// Returns Eigen's simplicial factor, which needs neither CHOLMOD nor a BLAS. AMD orders all rows
+/// except those that must stay last. A browser uses it as the default (host/stubs.cpp of
 /// tutorials/book/wasm); elsewhere tests compare the default with it.
 std::unique_ptr<SparseCholesky> eigen_cholesky();
 

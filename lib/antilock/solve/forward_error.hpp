@@ -63,12 +63,12 @@ double factor_roundoff(const VariationalInequality& problem, const PenalisedChol
 /// diagonal of A1 + B' M B, and then the rows of B by their norms. Rows whose distance is below
 /// defaults::row_tolerance count as equal.
 struct ConstraintDefect {
-  /// max |v|, where v is the step that removes r2 and is the shortest in the norm of that diagonal:
-  /// a minimum-norm least squares step (G. H. Golub and C. F. Van Loan, Matrix Computations, 5.5).
-  /// It estimates the error of u that r2 represents. Along a singular value s of B a residual of
-  /// 1e-15 is an error of 1e-15 / s in u, and the next correction hardly changes it. A row of
-  /// compliance c > 0 has an additional unknown with the coefficient sqrt(c / m), which regularises
-  /// the least squares problem (Tikhonov).
+  /// max |v|, where v is the step that removes r2. Among all such steps it has the smallest norm in
+  /// the scaled unknowns (a minimum-norm least squares step, G. H. Golub and C. F. Van Loan, Matrix
+  /// Computations, 5.5). It estimates the error of u that r2 represents. Along a singular value s
+  /// of B a residual of 1e-15 is an error of 1e-15 / s in u, and the next correction hardly changes
+  /// it. A row of compliance c > 0 has an additional unknown with the coefficient sqrt(c / m),
+  /// which regularises the least squares problem (Tikhonov).
   double displacement = 0;
   /// R: the part of B u = -r2 in the rows of compliance 0 that no step removes. It is the y of an
   /// infeasibility certificate (S. Boyd and L. Vandenberghe, Convex Optimization, 5.8): B' y = 0
@@ -77,19 +77,20 @@ struct ConstraintDefect {
 };
 
 /// Computes the defect of constraint_residual (R) by a dense QR. `status`: C, from the solution.
-/// Both parts are 0 without a computation where B has one row, which depends on no other, where B
-/// has more than defaults::max_rows_for_qr rows, and where the problem has more than 10
-/// defaults::max_rows_for_qr unknowns. In the last two cases Solution::error does not contain the
-/// error of nearly dependent rows. kernel_dimension (analysis/) finds such rows.
+/// Some problems are not examined, and both parts are then 0: where r2 is 0, where B has one row,
+/// because it cannot depend on another row, where B has more than defaults::max_rows_for_qr rows,
+/// and where the problem has more than 10 defaults::max_rows_for_qr unknowns. In the last two cases
+/// Solution::error does not contain the error of nearly dependent rows. kernel_dimension
+/// (analysis/) finds such rows.
 ConstraintDefect constraint_defect(const VariationalInequality& problem, const Eigen::VectorXd& constraint_residual,
                                    const BoundStatuses& status);
 
-/// Adds to result.error, which is absolute here, the errors of u that iterative refinement cannot
-/// see, because they do not show in the size of the corrections. The first one is the round-off of
-/// forces p that are too large for 106 bits. If it is above 1e-9 U, U of kkt.hpp, result.warning is
-/// set, and the second one is not computed. The second one is the constraint defect of nearly
-/// dependent rows of B. If it is above 1e-9 U, result.warning is set as well. Throws NotConverged
-/// where the defect proves that no u of this size is admissible.
+/// Adds two errors of u to result.error, which is absolute here. Neither of them changes the size
+/// of the corrections, so the estimate from the corrections does not contain them. The first one is
+/// the round-off of forces p that are too large for 106 bits. If this error is above 1e-9 U
+/// (kkt.hpp defines U), result.warning is set and the second error is not computed. The second one
+/// is the constraint defect of nearly dependent rows of B. If it is above 1e-9 U, result.warning is
+/// set as well. Throws NotConverged where the defect proves that no u of this size is admissible.
 void add_conditioning_error(const VariationalInequality& problem, const PenalisedCholesky& factor,
                             const Eigen::VectorXd& constraint_residual, Solution& result);
 

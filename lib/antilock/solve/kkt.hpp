@@ -16,8 +16,8 @@ namespace antilock {
 /// Each number of the report is relative: if the load, the bounds and the prescribed values are
 /// multiplied by one factor, the report stays the same. The scales:
 ///
-///     U        max(max |u|, 1e-6 penalised_max_u): a locked u tends to 0, and its round-off is
-///              that of the unlocked one
+///     U        max(max |u|, 1e-6 penalised_max_u). The second term is needed because a locked u
+///              tends to 0, while its round-off stays that of the unlocked u
 ///     t        |L| + |A1| |u| + |B'| M |p| + |E'| |lambda|: the absolute values of all terms of r1
 ///     f        max(t, U diag(|A1| + B' M B)): the forces at one unknown
 ///     F_0      the largest |L_k| and |E_ik lambda_i|
@@ -48,8 +48,9 @@ namespace antilock {
 ///     |(g_i - |lambda_i|) gap_i| / max(force_i, g_i)    beyond a bound with a force limit
 ///     |lambda_i gap_i| / force_i                        otherwise
 ///
-/// gap_i is the quotient of min_gap. Between two bounds a positive lambda_i counts only at the
-/// lower bound, and a negative one only at the upper bound.
+/// gap_i is the relative distance of bound i, one of the two quotients under min_gap. Between two
+/// bounds a positive lambda_i counts only at the lower bound, and a negative one only at the upper
+/// bound.
 ///
 /// kkt.cpp has the reasons for the scales. A zero solution of a zero load has a report of
 /// zeros. Throws Error for a malformed problem and for sizes that do not fit.
@@ -74,8 +75,8 @@ void check_kkt(const VariationalInequality& problem, Solution& solution, const K
 void apply_tolerances(Solution& solution, const KktTolerances& levels = {});
 
 /// The parts of kkt_report. For a problem on subdomains the vectors are summed over them, and
-/// strain is the maximum. Of the members of Kkt, residual and complementarity are then maxima,
-/// min_gap and min_pressure minima.
+/// strain is the maximum. Then residual and complementarity of Kkt are the maxima over the
+/// subdomains, and min_gap and min_pressure are the minima.
 struct KktParts {
   Eigen::VectorXd r1;         ///< N
   Eigen::VectorXd terms;      ///< N, t
@@ -91,8 +92,8 @@ struct KktParts {
 KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p);
 
 /// Adds the residuals of r1 and r2 to the report. `fixed` (N) is not 0 at prescribed unknowns. `u`,
-/// `force` and `with_reactions` are U, F_0 and F, on subdomains those of the whole problem. Returns
-/// min(f_k, F_0) of all unknowns (N), infinite at prescribed ones.
+/// `force` and `with_reactions` are U, F_0 and F. For a problem on subdomains they are computed
+/// from the whole problem. Returns min(f_k, F_0) of all unknowns (N), infinite at prescribed ones.
 Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed, double u, double force,
                               double with_reactions);
 /// Adds the gap, pressure and complementarity of bound i to the report. `value` is s_i, `reach` is

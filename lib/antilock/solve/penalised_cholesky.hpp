@@ -42,8 +42,8 @@ class PenalisedCholesky {
   /// Does the same, and returns the problem in slack form, in which all bounds are on unknowns.
   SlackForm slack_form(const VariationalInequality& problem) const;
   /// Computes a new numeric factor for another delta; the analysis is kept. If factorisation fails,
-  /// delta grows by defaults::penalty_reduction until it succeeds. Throws as the constructor does
-  /// where that does not help either; delta() is 0 afterwards.
+  /// delta grows by defaults::penalty_reduction until it succeeds. If no delta succeeds, it throws
+  /// as the constructor does, and delta() is 0 from then on.
   void refactor(double delta);
 
   /// Returns the penalty of the parametric rows, or 0 where the last refactor() has failed.
@@ -56,8 +56,8 @@ class PenalisedCholesky {
   /// Returns the smallest pivot of K: an upper bound, and a heuristic estimate, of its smallest
   /// eigenvalue (sparse_cholesky.hpp).
   double smallest_pivot() const { return factor_.cholesky().smallest_pivot(); }
-  /// Returns K^-1 r (n_free). With sparse, it solves K restricted to the unknowns that are not
-  /// constrained, and is 0 on the others.
+  /// Returns K^-1 r (n_free). With sparse, the result solves the system restricted to the unknowns
+  /// that are not constrained, and is 0 at the others.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_.solve(r); }
 
   /// Returns the factor whose unknowns can be constrained, or nullptr with schur_complement.

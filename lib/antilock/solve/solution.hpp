@@ -52,8 +52,8 @@ struct Solution {
   /// The estimated forward error of u: the largest |u - exact u| over the largest |u|, where exact
   /// u solves the discrete problem. It is the sum of three terms: the corrections to come, with the
   /// measured contraction; the residual of B u = compliance p; and eps / 2 for the rounding of u to
-  /// doubles. 0: there is no estimate, or nothing was left to correct. It assumes that the contact
-  /// set is right, and does not contain the error that Uzawa's steps leave.
+  /// doubles. It is 0 where there is no estimate, or where nothing was left to correct. It assumes
+  /// that the contact set is right, and does not contain the error that Uzawa's steps leave.
   ///
   /// It is an estimate. Of 24,000 random problems one had 15 times the estimated error, and all
   /// others at most 10 times; the worst known case has 24 times. It exceeds the tolerance where u

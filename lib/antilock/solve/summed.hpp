@@ -46,9 +46,10 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
 
 /// Solves by the algorithm and the linear solver of [SR04], Section 4.2 (cited in
 /// problem/variational_inequality.hpp): Uzawa's method, whose every step runs conjugate gradients
-/// on K with an ILUT preconditioner. Throws NotConverged where ILUT breaks down, as it does on
-/// stiff meshes that are not aligned with the layer, and where an iteration does not converge.
-/// Throws Error as summed_system does and for options.stop_at, which needs the condensed matrix.
+/// on K with an ILUT preconditioner. Throws NotConverged where ILUT breaks down, as it does for
+/// small epsilon on meshes that are not aligned with the layer, and where an iteration does not
+/// converge. Throws Error as summed_system does and for options.stop_at, which needs the condensed
+/// matrix.
 Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options = {});
 
 }  // namespace antilock

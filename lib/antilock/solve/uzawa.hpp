@@ -19,20 +19,21 @@ struct AlgebraicTolerance {
 };
 
 struct UzawaOptions {
-  /// The tolerance for |change of lambda| / rho in one step, which is a length, relative to the
-  /// largest |u|.
+  /// The iteration stops where |change of lambda| / rho in one step, divided by the largest |u|, is
+  /// at most this number. (|change of lambda| / rho has the unit of u.)
   double tolerance = 1e-10;
   int max_iterations = 1'000'000;  ///< steps of all corrections together; after these: NotConverged
   /// Wall seconds after which NotConverged is thrown.
   double max_seconds = std::numeric_limits<double>::infinity();
   /// The step length rho. Empty: 2 / (largest + smallest eigenvalue) of the flexibility matrix
-  /// S^-1, where S is the Schur complement of the contact unknowns. Where S^-1 scaled to a unit
-  /// diagonal is better conditioned, unknown i has the step length of the scaled matrix divided by
-  /// (S^-1)_ii. Lanczos iteration computes the eigenvalues.
+  /// S^-1, where S is the Schur complement of the contact unknowns. If scaling S^-1 to a unit
+  /// diagonal improves its condition, the formula is applied to the scaled matrix, and unknown i
+  /// has the resulting step length divided by (S^-1)_ii. Lanczos iteration computes the
+  /// eigenvalues.
   std::optional<double> step_length;
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <=
-  /// stop_at->energy for the problem of a correction. This is the problem itself where compliance
-  /// >= delta, and otherwise the problem with delta in place of the compliance.
+  /// stop_at->energy for the problem of a correction. If compliance >= delta, that is the given
+  /// problem. Otherwise it is the problem with delta in place of the compliance.
   std::optional<AlgebraicTolerance> stop_at;
   ProgressHook progress = {};  ///< called every 32 steps and after each correction but the last
 };
