@@ -26,7 +26,8 @@ struct LoopOptions {
   /// Called on every rank before each correction and after the last one; `false` on one rank stops
   /// all ranks.
   ProgressHook progress;
-  /// Whether MUMPS factors the matrix in place of multigrid: for layers without columns.
+  /// Whether MUMPS factors the matrix. It takes the place of multigrid, and is meant for layers
+  /// that are not made of columns.
   bool direct = false;
 };
 

@@ -12,8 +12,9 @@ namespace antilock::distributed {
 /// neighbouring vertical lines).
 std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks, bool any_layer = false);
 
-/// Returns the mesh of the triangles of this rank. An edge between two ranks has one triangle there
-/// and keeps its tag. `rank_of` has one rank per triangle of the coarse mesh.
+/// Returns the mesh of the triangles of this rank. In this mesh an edge between two ranks has only
+/// the triangle of this rank, and it keeps its tag. `rank_of` has one rank per triangle of the
+/// coarse mesh.
 TriangleMesh subdomain_of(const TriangleMesh& coarse, const std::vector<int>& rank_of, int rank);
 
 /// Returns the mesh with every triangle cut into four by its edge midpoints, triangle t into 4 t

@@ -26,18 +26,18 @@ std::string petsc_version();
 /// waits for one that has failed. `work` itself must not communicate.
 void collectively(const std::function<void()>& work);
 
-/// Ends the run of all ranks with that status, after one line on standard error. It is for a
-/// failure of this rank of which the others do not know.
+/// Prints one line on standard error and ends the run of all ranks with the exit status `status`.
+/// It is for a failure of this rank of which the others do not know.
 [[noreturn]] void abort(const std::string& message, int status);
 
 double sum(double value);        ///< over the ranks
 double largest(double value);    ///< over the ranks
 long long sum(long long value);  ///< over the ranks
-/// Those of all ranks, rank by rank, on every rank.
+/// Returns, on every rank, the values of all ranks in the order of the ranks.
 std::vector<double> all_gather(const std::vector<double>& values);
-/// One value per rank, on every rank.
+/// Returns, on every rank, one value per rank.
 std::vector<long long> all_gather(long long value);
-/// The text of rank 0, on every rank.
+/// Returns the text of rank 0 on every rank.
 std::string broadcast(std::string text);
 
 /// Returns the text of the first rank whose text is not empty, on every rank; empty if there is

@@ -7,7 +7,7 @@ namespace antilock::distributed {
 /// check the solution.
 struct SnesviEnd {
   std::string reason;  ///< PETSc's name for the reason why it stopped
-  /// Whether PETSc reports convergence and, with `split`, the corrections converged, too.
+  /// Whether PETSc reports convergence. With `split` the corrections must have converged as well.
   bool converged = true;
   int newton = 0;       ///< Newton steps
   int linear = 0;       ///< iterations of conjugate gradients, all steps
@@ -21,11 +21,11 @@ struct SnesviEnd {
 /// matrix A_delta of `problem`, the bound lower - u and the right-hand side r1 + delta^-1 B' M r2
 /// (detail/distributed_problem.hpp).
 ///
-/// With `split` false there is one correction, which from u = 0 is the use of SNESVI without this
-/// library. With PenaltyChoice::none the matrix is then A1 + compliance^-1 B' M B, in which A1 has
-/// lost its digits. With `split` true there are corrections until du is below 1e-10 of u, but at
-/// most 20. Full steps are then taken, because PETSc's default line search fails on fine meshes,
-/// where it compares residuals that are round-off. Every rank must call it.
+/// With `split` false there is one correction. From u = 0 it is the solve that a user of SNESVI
+/// would make without this library. With PenaltyChoice::none the matrix is then A1 + compliance^-1
+/// B' M B, in which A1 has lost its digits. With `split` true there are corrections until du is
+/// below 1e-10 of u, but at most 20. Full steps are then taken, because PETSc's default line search
+/// fails on fine meshes, where it compares residuals that are round-off. Every rank must call it.
 SnesviEnd snesvi(const distributed::DistributedProblem& problem, distributed::State& state, bool split);
 
 }  // namespace antilock::distributed
