@@ -5,9 +5,11 @@
 
 namespace antilock {
 
-/// Writes the mesh in the native .msh format of FreeFEM: nv nt nbe; x y label; i j k region; i j
-/// label. The numbering is that of the mesh, and the labels are those of physical_number and
-/// Region. Throws Error, `path` first, and leaves no partial file.
+/// Writes the mesh in the native .msh format of FreeFEM: a line with the numbers of vertices,
+/// triangles and labelled edges (nv nt nbe), then one line per vertex (x y label), per triangle (i
+/// j k region) and per edge (i j label). The numbering is that of the mesh, and the labels are
+/// those of physical_number and Region. Throws Error, whose message begins with `path`, and leaves
+/// no partial file.
 void write_freefem_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 }  // namespace antilock

@@ -20,7 +20,7 @@ struct VtuFields {
 /// `region` (1 and 2: the field data `body` and `layer` name them). A Crouzeix-Raviart field has
 /// three points per triangle, so that it keeps its jumps. A P1 or P2 field has one point per
 /// vertex, so P2 is shown only by its values at vertices. This function and the two below throw
-/// Error, `path` first, and leave no partial file.
+/// Error, whose message begins with `path`, and leave no partial file.
 void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u,
                const VtuFields& more = {});
 /// Writes a field that is affine on each triangle and jumps between them: T x 3 values at the
