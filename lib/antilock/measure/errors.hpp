@@ -17,10 +17,12 @@ struct Reference {
   std::function<Eigen::Vector2d(double x, double y)> gradient;
   /// epsilon^-2 d/dy u in the layer, its limit at epsilon = 0.
   std::function<double(double x, double y)> layer_stress;
-  /// Returns all three at once, which may be faster. Its layer_stress has no meaning above the
-  /// layer. It may be empty; then the functions above are called.
+  /// Returns value, gradient and layer stress at once, which may be faster. Above the layer the
+  /// stress that it returns has no meaning. This function may be empty; then the three functions
+  /// above are called.
   std::function<ExactPoint(double x, double y)> at = {};
-  /// Returns all three at x; the stress is set only if `in_layer` is true or `at` is set.
+  /// Returns value, gradient and layer stress at x. The stress is valid only if `in_layer` is true
+  /// or the function `at` is given.
   ExactPoint known(const Eigen::Vector2d& x, bool in_layer) const;
 };
 

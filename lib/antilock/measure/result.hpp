@@ -21,12 +21,13 @@ struct RunSeconds {
 /// analysis/locking_loss.hpp).
 struct LockingReport {
   std::string diagnosis;  ///< one line: whether the element locks in the layer, and why
-  /// The share of LockingLoss::lower_bound. It is empty where nothing can lock, where locking_loss
-  /// throws, and where the method locks but that is not proved: `estimate` is at least 5 %
-  /// (`significance`), and the share of the lower bound is not.
+  /// The share of LockingLoss::lower_bound. It is empty in three cases: nothing can lock;
+  /// locking_loss throws; or locking is not proved, which means that `estimate` is at least 5 %
+  /// (`significance`) but the share of the lower bound is below 5 %.
   std::optional<double> lost = {};
-  /// Empty if `estimate` is below 5 %. Otherwise one sentence with the word "locks", the share, how
-  /// it is known ("proved", or by a second solve with columns if `lost` is empty) and the remedies.
+  /// Empty if `estimate` is below 5 %. Otherwise it is one sentence that contains "locks", the
+  /// share, its origin and the remedies. The origin is "proved", or, if `lost` is empty, a second
+  /// solve with columns.
   std::string warning = {};
   /// The share of LockingLoss::estimate; 0 where locking_loss was not called or throws.
   double estimate = 0;
