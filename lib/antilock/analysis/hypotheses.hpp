@@ -11,8 +11,9 @@ struct Hypotheses {
   /// (H1), (H1nc): the smallest (a1 + a0)(v, v) / norm(v, v). The theorems need a positive lower
   /// bound beta for all h.
   double coercivity = 0;
-  /// (H2): dim G_h. G_h contains every function on which a0 vanishes, in (23) those of the whole
-  /// body. So its size alone does not diagnose locking; locking.hpp does.
+  /// (H2): dim G_h. G_h contains every function on which a0 vanishes. In (23) these include all
+  /// functions that are 0 in the layer. So its size alone does not diagnose locking; locking.hpp
+  /// does.
   int kernel = 0;
   int free = 0;  ///< free unknowns; B v = 0 are free - kernel independent conditions
   /// The distance of the admissible set K_h from G_h (distance_to_kernel). The theorems need a

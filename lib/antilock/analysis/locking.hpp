@@ -27,23 +27,24 @@ enum class Verdict { locks_completely, locks, locks_in_part, not_detected };
 /// forms and on which unknowns are bounded, and not on the load or on the values of the bounds. The
 /// dimension of the kernel G_h of B does not decide it. In (23) of [SR04] (cited in
 /// problem/variational_inequality.hpp) the body's unknowns are in G_h on every mesh, and in a
-/// coating of plane strain u_x has a large kernel where u_y, which is in contact, has none. The
-/// dimension of the trace of G_h on the bounded unknowns does (trace_dimension, kernel.hpp). It is
-/// compared on a mesh and on a finer one:
-/// - It is 0 on the finer mesh. Then the bounded unknowns tend to 0 as compliance -> 0 (Proposition
+/// coating of plane strain u_x has a large kernel where u_y, which is in contact, has none. Locking
+/// depends on the dimension of the trace of G_h on the bounded unknowns (trace_dimension,
+/// kernel.hpp). This dimension is compared on a mesh and on a finer one:
+/// - If it is 0 on the finer mesh, the bounded unknowns tend to 0 as compliance -> 0 (Proposition
 ///   1: u_h tends to a function of G_h). This is proved.
-/// - It is not larger on the finer mesh. K_0, the functions of the admissible set K with B v = 0,
-///   has infinitely many independent traces, and m + 1 of them cannot all be limits of functions
-///   whose traces have the dimension m. So some load locks. This is proved if the number stays m on
-///   all meshes.
-/// - It grows by less than 19/20 of the number of additional bounds: a part of the boundary cannot
-///   move. (Example: the layer is cut into columns under one half of the boundary, and its
+/// - If it is not larger on the finer mesh, some load locks, for this reason: K_0, the functions of
+///   the admissible set K with B v = 0, has infinitely many independent traces, and m + 1 of them
+///   cannot all be limits of functions whose traces have the dimension m. This is proved if the
+///   number stays m on all meshes.
+/// - If it grows by less than 19/20 of the number of additional bounds, a part of the boundary
+///   cannot move. (Example: the layer is cut into columns under one half of the boundary, and its
 ///   triangles are connected under the other half. The dimension grows, but the other half locks.)
-/// - It grows, but refinement increases the flexibility of the bounds by more at a small compliance
-///   than where both forms are equally stiff. So the stiffness depends on the mesh. This criterion
-///   is observed, not proved. (Example: P1 for nearly incompressible plane strain with free sides,
-///   on a mesh with parallel diagonals. There the dimension grows by one per additional bound, and
-///   the method locks.)
+/// - If it grows by more, the flexibilities are compared. Refinement makes the bounded unknowns
+///   more flexible. If this effect is larger at a small compliance than at the compliance where
+///   both forms are equally stiff, the stiffness depends on the mesh. This criterion is observed,
+///   not proved. (Example: P1 for nearly incompressible plane strain with free sides, on a mesh
+///   with parallel diagonals. There the dimension grows by one per additional bound, and the method
+///   locks.)
 /// - Otherwise no locking for this reason is detected. This is necessary for uniform convergence,
 ///   but not sufficient: the traces must also approximate those of K_0 (Theorem 4).
 ///

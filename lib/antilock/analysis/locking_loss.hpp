@@ -16,11 +16,12 @@ namespace antilock {
 /// three functions (locking_loss.cpp constructs them). Sigma is the interface of body and layer,
 /// and Gamma_C the contact boundary, the bottom of the layer.
 /// - v minimises J over a small space. In the body v = u_h + w, where w is a combination of hat
-///   functions. Each unknown on Sigma has one hat function, and the wider ones stand in rows above
-///   Sigma. In the layer v does not use the triangles of the mesh, but columns, one below each edge
-///   of Sigma. There d_y v = 0 is possible for any trace of v on Sigma, so v does not lock. v
-///   satisfies the bounds at the points of Gamma_C below the unknowns on Sigma. These bounds are
-///   interpolated from those of u_h, so that v and u_h see the same obstacle.
+///   functions. There is one hat function per unknown on Sigma. Above Sigma there are further rows
+///   of hat functions, which are wider the farther they are from Sigma. In the layer v does not use
+///   the triangles of the mesh, but columns, one below each edge of Sigma. There d_y v = 0 is
+///   possible for any trace of v on Sigma, so v does not lock. v satisfies the bounds at the points
+///   of Gamma_C below the unknowns on Sigma. These bounds are interpolated from those of u_h, so
+///   that v and u_h see the same obstacle.
 /// - v' is in K, and gives the lower bound. v may be below the obstacle between those points, so
 ///   J(u_h) - J(v) is only an estimate. v' is v plus a function that is affine on each edge of
 ///   Sigma and constant in y. It lifts v above the obstacle, as far as 33 points per edge show.
@@ -30,13 +31,13 @@ namespace antilock {
 ///   In the body v_0 = u_h + w, with the w that minimises J for these values on Sigma.
 ///
 /// Load and stiffness are evaluated at the quadrature points of u_h, so that quadrature errors
-/// cancel in the difference. The loss does not say what a finer mesh would gain: v has at most as
-/// many rows in the layer as the mesh, because a layer of few rows is coarse, but does not lock for
-/// this reason. (Measured at epsilon = 1 in the layer below a bridge, a body on two feet: halving
+/// cancel in the difference. The loss is not the gain of a finer mesh. A layer with few rows is
+/// coarse, but it does not lock because of this. Therefore v has at most as many rows in the layer
+/// as the mesh. (Measured at epsilon = 1 in the layer below a bridge, a body on two feet: halving
 /// the height of the rows gains 18 to 30 %, and no loss is reported.) Where a gap oscillates over a
-/// few edges, the loss depends on the points at which u_h meets the gap. (Measured with 4.6 edges
-/// per wave: 9 % is reported, but P1 on a mesh of columns, with its own contact points, is only 3 %
-/// better.)
+/// few edges, the loss depends on the points at which u_h meets the gap. (Example, measured: for a
+/// gap with 4.6 edges per wave a loss of 9 % is reported. But P1 on a mesh of columns, which has
+/// other contact points, gains only 3 %.)
 struct LockingLoss {
   double estimate = 0;  ///< J(u_h) - J(v), negative where v is the worse of the two
   /// J(u_h) - J(v'), a lower bound of J(u_h) - J(u) up to round-off. It is -infinity if there is no

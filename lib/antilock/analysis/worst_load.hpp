@@ -28,11 +28,11 @@ double loss_of_wave(int k);
 /// but its trace on Sigma, the interface of body and layer, is x (1 - x) times a polynomial of
 /// degree p - 2 (0 for p = 1). p is at least 1. The series are cut after 64 waves.
 ///
-/// Let e_k be psi_k sin(k pi x) in the body and sin(k pi x) in the layer. The lost functions are z
-/// = sum c_k e_k / |e_k|_a with a(z, v) = 0 for all v with an admissible trace. The e_k / |e_k|_a
-/// are orthonormal in a, so the vector c is orthogonal to (|e_k|_a int v sin(k pi x))_k for each
-/// admissible trace v. The norm of z in L2(body) is (sum l_k^2 c_k^2)^(1/2). The largest one with
-/// |c| = 1 is the worst error, by duality.
+/// Let e_k be psi_k sin(k pi x) in the body and sin(k pi x) in the layer. The functions that the
+/// method cannot represent are z = sum c_k e_k / |e_k|_a with a(z, v) = 0 for all v with an
+/// admissible trace. The e_k / |e_k|_a are orthonormal in a, so the vector c is orthogonal to
+/// (|e_k|_a int v sin(k pi x))_k for each admissible trace v. The norm of z in L2(body) is (sum
+/// l_k^2 c_k^2)^(1/2). The largest one with |c| = 1 is the worst error, by duality.
 double loss_of_degree(int p);
 
 /// Returns the Kolmogorov n-width of the ball's solutions (A. Pinkus, n-Widths in Approximation
@@ -53,9 +53,9 @@ double kolmogorov_width(int n);
 /// u has a_h(u, v_h) = a_h(I_h u, v_h). F is dense, N x n, and E is never formed.
 class ErrorForm {
  public:
-  /// modes.waves() should be 1 to 2 per cell side, because the load is integrated inexactly above.
-  /// Throws Error for more than 4.25 waves per longest edge, for a mesh other than that of the two
-  /// unit squares, body and layer, and for an element that is neither conforming nor CR.
+  /// modes.waves() should be 1 to 2 per cell side, because loads with more waves are not integrated
+  /// accurately. Throws Error for more than 4.25 waves per longest edge, for a mesh other than that
+  /// of the two unit squares, body and layer, and for an element that is neither conforming nor CR.
   ErrorForm(const Space& space, LoadModes modes);
 
   /// Sets epsilon, which is 1 at first. Throws Error outside of [0, 1].
