@@ -22,8 +22,8 @@ class Expression {
   /// longer than 4,000 characters, does not parse, or contains an unknown name.
   Expression(std::string text, std::vector<std::string> variables);
 
-  /// Returns the value at one number per variable. Throws Error, with the place, where it is not
-  /// finite or beyond 1e100.
+  /// Returns the value of the formula. `variables` has one number per variable. Throws Error, with
+  /// the place, where the value is not finite or beyond 1e100.
   double operator()(std::span<const double> variables) const;
   double operator()(double x) const { return (*this)(std::span(&x, 1)); }
   double operator()(double x, double y) const;

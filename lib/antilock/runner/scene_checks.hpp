@@ -22,9 +22,9 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh);
 /// detected.
 std::string load_warning(const SceneFile& file, const Space& space, const VariationalInequality& problem);
 
-/// Returns a warning if prescribed displacements jump, else an empty text: where two groups of
-/// edges meet with different values, or within a formula. No function of finite energy has such a
-/// jump: the energy of u_h grows like |log h| as h tends to 0.
+/// Returns a warning if prescribed displacements jump, else an empty text. They may jump where two
+/// groups of edges with different values meet, or within a formula. No function of finite energy
+/// has such a jump: the energy of u_h grows like |log h| as h tends to 0.
 std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh);
 
 /// Returns a warning if the boundary of a mesh from a file looks like a curve, else an empty text.
@@ -43,8 +43,9 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
 
 /// Returns a warning if the Crouzeix-Raviart u_h in the layer is larger than the largest, or
 /// smaller than the smallest, value on the boundary of the layer by more than a twentieth of max
-/// |u_h|, else an empty text. By the maximum principle the exact solution is not, if the layer has
-/// no load. Layers with a considerable load are not checked.
+/// |u_h|, else an empty text. If the layer has no load, the exact solution in the layer lies
+/// between its smallest and its largest value on the boundary of the layer, by the maximum
+/// principle. Layers with a considerable load are not checked.
 std::string range_warning(const SceneFile& file, const Space& space, const Solution& solution);
 
 }  // namespace antilock

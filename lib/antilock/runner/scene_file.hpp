@@ -68,7 +68,7 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
 
 /// Returns the name of a feature that the problem of [SR04] (cited in
 /// problem/variational_inequality.hpp) does not have: plane strain, or the one of
-/// Scene::beyond_the_paper. Empty if there is none.
+/// Scene::beyond_the_paper. The text is empty if the scene has no such feature.
 std::string beyond_the_paper(const SceneFile& file);
 
 /// Throws Error, `FILE: WHO: ...`, for a scene with such a feature.

@@ -49,8 +49,8 @@ struct SceneKey {
   /// For a key of [model]: the kinds that have it, "rubber" or "coating"; empty: all.
   std::vector<std::string> models{};
 
-  // The help lists the keys of a section in the order of `line`. The comment of another key
-  // describes a key without a line.
+  // The help lists the keys of a section in the order of `line`. A key whose `line` is 0 has no
+  // line of its own: the comment of another key describes it.
   int line = 0;           ///< 0: none
   std::string example{};  ///< the value of the key in this line
   std::string comment{};  ///< the comment behind the value; further lines stand below it

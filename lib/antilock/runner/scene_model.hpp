@@ -87,9 +87,9 @@ struct RubberModel : PressedModel<PlaneStrain> {
 struct CoatingModel : PressedModel<Coating> {
   std::optional<double> penalty(const Space& space) const;
   Result solve(const SceneFile& file, const Space& space, const Solver& solver) const;
-  /// Reports that conforming elements lock on a layer without columns where the bending length k of
-  /// the mesh is not small beside the thickness (analysis/locking.hpp). This criterion is not
-  /// proved.
+  /// Reports locking for a conforming element on a layer without columns if the bending length k of
+  /// the mesh is not small compared with the thickness (analysis/locking.hpp). This criterion is
+  /// not proved.
   std::optional<LockingReport> locking_report(const SceneFile& file, const Space& space) const;
   /// Returns T values, one per triangle: minus the stress in y.
   Eigen::VectorXd pressure(const Result& result) const;

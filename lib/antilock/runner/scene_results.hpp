@@ -58,7 +58,8 @@ void write_summary(const std::filesystem::path& path, const SceneFile& file, con
 /// The requested files: "csv", "mesh" and "vtu". "summary" has no effect, because summary.json is
 /// always written.
 using ResultFiles = std::set<std::string>;
-/// Reads such words, or "summary", separated by commas. Throws Error, the option first.
+/// Reads such words, or "summary", separated by commas. Throws Error, whose message begins with the
+/// name of the option, for any other word and for none.
 ResultFiles result_files(const std::string& words);
 
 /// Writes the results of a scene file into `folder`: summary.json, solution.csv, contact.csv (for a
