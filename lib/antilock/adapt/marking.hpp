@@ -12,14 +12,16 @@ namespace antilock {
 /// thin layer crosses the whole layer, so that columns are the cheaper mesh for epsilon <= 0.1.
 enum class RefinementStrategy { bisect, extrude };
 
-/// Parameters of Doerfler's marking. The largest indicators that make up the fraction `theta` of
-/// the sum are marked, but at least the fraction `min_fraction` of their number (without it, an
-/// obstacle with one narrow peak takes twenty levels) and at most `max_marked` (0: no limit).
+/// Parameters of Doerfler's marking. The triangles with the largest indicators are marked until
+/// their indicators add up to the fraction `theta` of the sum. At least the fraction `min_fraction`
+/// of all triangles is marked (without this limit an obstacle with one narrow peak takes twenty
+/// levels), and at most `max_marked` triangles (0: no limit).
 struct Marking {
   double theta = 0.5, min_fraction = 0.05;
   int max_marked = 0;
-  /// Where more than this fraction of the number would be marked, the error is spread evenly. Then
-  /// all are marked, if `max_marked` allows it, so that the triangles keep their shapes.
+  /// If more than this fraction of all triangles would be marked, the error is spread evenly over
+  /// the mesh. Then all are marked, if `max_marked` allows it, so that the triangles keep their
+  /// shapes.
   double uniform_above = 0.2;
 };
 

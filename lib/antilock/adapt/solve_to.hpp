@@ -61,11 +61,11 @@ struct CertifiedSolution {
 /// the first mesh. From gmsh's mesh with 1/h = 8 they need 6 % more unknowns than a fine mesh of
 /// gmsh, and from that with 1/h = 16 they need 1 % more. `progress` is called after every level.
 ///
-/// A P1 result is the conforming companion itself, which is in K between the vertices as well;
-/// Crouzeix-Raviart on the same mesh gives the flux. The bound of a P2 result is the bound of the
-/// P1 companion plus the distance between both (certified_distance). Where P1 or P2 locks, h must
-/// fall to about epsilon before the error does. Where a prediction exceeds the limit of unknowns,
-/// refinement ends at once, and the message names the reason.
+/// A P1 result is the conforming companion itself, because it is in K also between the vertices.
+/// The flux comes from a Crouzeix-Raviart solution on the same mesh. The bound of a P2 result is
+/// the bound of the P1 companion plus the distance between both (certified_distance). Where P1 or
+/// P2 locks, h must fall to about epsilon before the error does. Where a prediction exceeds the
+/// limit of unknowns, refinement ends at once, and the message names the reason.
 ///
 /// Throws Error for an accuracy outside (0, 1), another element, a limit below the unknowns of the
 /// first mesh, and a scene and a mesh that do not fit. Throws NotConverged, with the accuracy that
