@@ -31,9 +31,10 @@ EnergyBounds energy_bounds(const Scene& scene, const TriangleMesh& mesh);
 ///
 /// With the default share the errors were within 1 % of those after convergence (observed, chapter
 /// 21). The bounds may come from a mesh that is coarser by the factor `coarser`, where they cost
-/// little. Their width is then divided by coarser^2 (order h^2), which is too strict, and so on the
-/// safe side, where P1 locks. Where the width is not positive, both tolerances are 0. Throws Error
-/// unless coarser >= 1 and 0 < share <= 1.
+/// little. Their width is then divided by coarser^2, because it has order h^2. Where P1 locks, the
+/// width falls more slowly. The tolerance is then stricter than necessary, which is safe. Where the
+/// width is not positive, both tolerances are 0. Throws Error unless coarser >= 1 and 0 < share <=
+/// 1.
 AlgebraicTolerance balanced_tolerance(const EnergyBounds& bracket, double coarser = 1, double share = 0.05);
 
 }  // namespace antilock

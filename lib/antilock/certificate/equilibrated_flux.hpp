@@ -57,12 +57,15 @@ struct EquilibratedFlux {
 
 /// Builds the flux. u and p need not satisfy any equation. Where f is far from affine on a
 /// triangle, it is integrated by a finer rule than that of the solver, and the difference is a part
-/// of r. Throws Error for another element than Crouzeix-Raviart, for a feature that
-/// Scene::beyond_the_certificate names, for a stiffness that varies on a triangle (as sampled), for
-/// a traction on the layer, for a displacement that is not affine on an edge or jumps between two
-/// edges, for the Ventcel layer (accepted in its place: the scaled layer with epsilon = 0, which is
-/// the same problem), for a solution of another size or with entries that are not finite, and for a
-/// problem that is not that of this scene on this space.
+/// of r. Throws Error for
+/// - another element than Crouzeix-Raviart,
+/// - a feature that Scene::beyond_the_certificate names,
+/// - a stiffness that varies on a triangle (as sampled),
+/// - a traction on the layer,
+/// - a displacement that is not affine on an edge or jumps between two edges,
+/// - a solution of another size or with entries that are not finite,
+/// - a problem that is not that of this scene on this space,
+/// - the Ventcel layer. The scaled layer with epsilon = 0 is the same problem and is accepted.
 EquilibratedFlux equilibrated_flux(const Scene& scene, const Result& result);
 
 }  // namespace antilock
