@@ -1,10 +1,11 @@
 #pragma once
 namespace antilock {
 
-/// The exact solution of the clamped plate of radius 1 that the load -load presses on a flat
-/// obstacle at -gap. It touches the obstacle on the disc r <= c. It is a closed form for every
-/// thickness t, except for c, the root of a scalar equation (derived in exact_plate.cpp). t = 0 is
-/// Kirchhoff's plate. Everything is dimensionless, as in models/plate.hpp.
+/// The exact solution of the clamped plate of radius 1 over a flat obstacle at the height -gap. A
+/// uniform force `load` per area presses the plate downwards. The plate touches the obstacle on the
+/// disc r <= c. The solution is a closed form for every thickness t, except for c, the root of a
+/// scalar equation (derived in exact_plate.cpp). t = 0 is Kirchhoff's plate. Everything is
+/// dimensionless, as in models/plate.hpp.
 class ExactPlate {
  public:
   /// Throws Error where the plate does not touch the obstacle on a disc.

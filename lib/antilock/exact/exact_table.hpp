@@ -36,7 +36,7 @@ class ExactTable {
   double value(double x, double y) const;
   Eigen::Vector2d gradient(double x, double y) const;  ///< on Sigma: the body's side
   double layer_stress(double x, double y) const;       ///< for y <= 0, else Error
-  /// Returns all three, in little more time than one of them.
+  /// Returns value, gradient and layer stress together, in little more time than one of them.
   ExactPoint at(double x, double y) const;
 
  private:
