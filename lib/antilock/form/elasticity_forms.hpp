@@ -23,9 +23,9 @@ struct Lame {
   /// Returns the 4 x 4 matrix of 2 mu eps(u):eps(v) + lambda div u div v between the derivatives of
   /// u and those of v.
   Eigen::Matrix4d matrix() const;
-  /// Returns 4 mu (lambda + mu) / (lambda + 2 mu), the modulus of a thin sheet in plane strain: if
-  /// the stress in y vanishes, which is v_y = -lambda / (lambda + 2 mu) u_x, the form is this
-  /// modulus times u_x^2.
+  /// Returns 4 mu (lambda + mu) / (lambda + 2 mu), the modulus of a thin sheet in plane strain. The
+  /// stress in y vanishes if v_y = -lambda / (lambda + 2 mu) u_x. Then, without shear, the form is
+  /// this modulus times u_x^2.
   double plane_strain_modulus() const { return 4 * mu * (lambda + mu) / (lambda + 2 * mu); }
   /// Returns the form of `matrix` as a sum of weighted squares of u_x, v_y, u_y + v_x and, where
   /// lambda is not 0, u_x + v_y.
@@ -48,7 +48,8 @@ struct StrainTerm {
 FactoredForm strain_form_factored(const VectorSpace& space, const std::vector<StrainTerm>& strains,
                                   std::optional<Region> region = {});
 
-/// Returns the same form with the weights beside M, as moduli.
+/// Returns the same form as a WeightedFactoredForm: the weights are its `stiffness`, and M holds
+/// only the quadrature weights.
 WeightedFactoredForm stiff_strain_rows(const VectorSpace& space, const std::vector<StrainTerm>& strains,
                                        std::optional<Region> region = {});
 

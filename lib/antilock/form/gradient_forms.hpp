@@ -19,9 +19,9 @@ struct Stiffness {
 /// where `of_body` is empty. Throws Error where it is not positive.
 double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle);
 
-/// Returns the N x N matrix of the form, summed over the triangles. The forms a+ and a_x^- of (23)
-/// of [SR04] (cited in problem/variational_inequality.hpp) are {1, 1} on the body and {1, 0} on the
-/// layer.
+/// Returns the N x N matrix of the form, summed over the triangles. The stiffness {1, 1} on the
+/// body gives the form a+ of (23) of [SR04] (cited in problem/variational_inequality.hpp), and {1,
+/// 0} on the layer gives a_x^-.
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer);
 /// Returns the same for a stiffness per triangle (T).
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<Stiffness>& of_triangle);

@@ -15,9 +15,9 @@ using StrainProjection = RowMatrix;
 /// the rows form groups, and the strain is projected in L2 onto the functions that are constant on
 /// each group. With hat functions phi_g as weights the form is a mixed one: a row is (int phi_g
 /// times the strain) / (int phi_g). By Jensen's inequality the new form is never larger than the
-/// old one. `cell` of a mean is the first cell that has a weight in it. `cell` is empty if the form
-/// has no cells. Throws Error for another number of columns, a negative weight, a column that does
-/// not sum to 1, and an empty row.
+/// old one. The entry of `cell` for a mean is the first cell whose rows have a weight in this mean.
+/// `cell` is empty if the form has no cells. Throws Error for another number of columns, a negative
+/// weight, a column that does not sum to 1, and an empty row.
 FactoredForm project_strain(const FactoredForm& form, const StrainProjection& projection);
 
 /// Returns the projection onto the means over the boxes of a grid that contain the centroid of a
