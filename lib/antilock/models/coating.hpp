@@ -30,8 +30,9 @@ struct Coating : BlockLoading {
 /// values out of range and for a mesh without a layer.
 VariationalInequality assemble(const Coating& coating, const VectorSpace& space);
 
-/// Returns T values of the pressure, which is minus the stress in y. In the body it is the pressure
-/// of the mean strain of a triangle, in the coating its mean over a triangle. `p` is Solution::p.
+/// Returns T values of the pressure, which is minus the stress in y. In the body it is computed
+/// from the mean strain of each triangle. In the coating it is the mean of the pressure over each
+/// triangle. `p` is Solution::p.
 Eigen::VectorXd pressure(const Coating& coating, const VectorSpace& space, const Eigen::VectorXd& u,
                          const Eigen::VectorXd& p);
 

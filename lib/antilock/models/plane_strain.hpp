@@ -12,7 +12,8 @@ class StiffnessRange;
 /// bounds are those of u_y, ordered by x, and then, with friction, those of u_x, ordered by x.
 struct BlockLoading {
   double prescribed_displacement = 0.1;  ///< displacement of the clamped edges, downwards
-  /// Clamped edges slide in x; u_x = 0 on the whole line x = 0 instead (patch test).
+  /// Whether clamped edges may slide in x. Then u_x = 0 is prescribed on the whole line x = 0
+  /// instead of on these edges. The patch test uses this.
   bool sliding = false;
   Profile gap = [](double) { return 0.0; };
   Profile friction = {};   ///< g(x) >= 0, a force per length; empty: none

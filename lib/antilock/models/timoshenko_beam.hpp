@@ -10,10 +10,10 @@ enum class ShearIntegration {
   reduced  ///< the midpoint: does not lock
 };
 
-/// Timoshenko's beam on (0, 1), clamped at both ends, under the load -load above a flat obstacle at
-/// the distance gap (the thin structure of the introduction of [SR04], cited in
-/// problem/variational_inequality.hpp). It is dimensionless: the bending stiffness is 1, the shear
-/// stiffness 1 / epsilon.
+/// Timoshenko's beam on (0, 1), clamped at both ends. A force `load` per length acts downwards, and
+/// a flat obstacle lies at the distance `gap` below (the thin structure of the introduction of
+/// [SR04], cited in problem/variational_inequality.hpp). It is dimensionless: the bending stiffness
+/// is 1, the shear stiffness 1 / epsilon.
 struct Beam {
   int cells = 64;         ///< of equal size, >= 2
   double epsilon = 1e-4;  ///< the class parameter, in [0, 1]; 0 is the Bernoulli beam
