@@ -33,9 +33,9 @@ constexpr double default_penalty = 6e-8;
 inline double choose_penalty(const StiffnessRatio& s) { return default_penalty * s.value(); }
 inline double choose_penalty(const VariationalInequality& problem) { return choose_penalty(stiffness_ratio(problem)); }
 
-/// Returns the delta of a factor, max(compliance, penalty). Without `penalty` it is choose_penalty.
-/// The compliance is left out where all rows of B have fixed compliances, since no row has it then.
-/// Throws Error for a penalty that is not a positive finite number.
+/// Returns the delta of a factor, max(compliance, penalty). If `penalty` is empty, the penalty is
+/// choose_penalty(problem). The compliance is left out where all rows of B have fixed compliances,
+/// since no row has it then. Throws Error for a penalty that is not a positive finite number.
 double penalty_parameter(const VariationalInequality& problem, std::optional<double> penalty = {});
 
 }  // namespace antilock
