@@ -24,8 +24,8 @@ class Element {
   virtual Eigen::MatrixX3d support_points() const = 0;
   /// Returns the m values of the basis at lambda.
   virtual Eigen::VectorXd basis(const Eigen::Vector3d& lambda) const = 0;
-  /// Returns the derivatives d phi_i / d lambda_j (m x 3). The gradients are this times grad lambda
-  /// (3 x 2).
+  /// Returns the derivatives d phi_i / d lambda_j (m x 3). The gradients of the basis functions are
+  /// the product of this matrix and the matrix grad lambda (3 x 2).
   virtual Eigen::MatrixX3d derivative(const Eigen::Vector3d& lambda) const = 0;
 
   /// Returns m.
