@@ -3,6 +3,8 @@ import re
 import sys
 from pathlib import Path
 
+import myst_parser
+
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
@@ -13,7 +15,9 @@ author = "the Antilock authors"
 html_title = "Antilock"
 extensions = ["myst_parser", "katex", "search", "hints"]
 root_doc = "index"
-myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", "attrs_image"]
+# {width=...} behind a picture: attrs_inline since 0.19
+attributes = "attrs_inline" if [int(n) for n in myst_parser.__version__.split(".")[:2]] >= [0, 19] else "attrs_image"
+myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", attributes]
 myst_heading_anchors = 3
 suppress_warnings = ["myst.header"]  # a step (###) stands where the program has it
 html_theme = "furo"

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/mesh/detail/gmsh_session.hpp"
@@ -83,6 +84,9 @@ MeshArrays kept_mesh(const std::string& name, Make&& make) {
   return made;
 }
 
+/// A number >= 0 as printf's %a writes it. fmt 10 writes 0 as 0x0p-1022.
+std::string hexadecimal(double x) { return x == 0 ? "0x0p+0" : fmt::format("{:a}", x); }
+
 }  // namespace
 
 TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
@@ -96,7 +100,8 @@ TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
     while ((most_to_refine << halvings) < cells && fits(halvings + 1)) ++halvings;
   const double h_made = (1 << halvings) * h, h_layer_made = (1 << halvings) * h_layer;
   auto [vertices, triangles] =
-      kept_mesh(fmt::format("unstructured{}_{:a}_{:a}_{:a}", static_cast<int>(mesher), depth, h_made, h_layer_made),
+      kept_mesh(fmt::format("unstructured{}_{}_{}_{}", static_cast<int>(mesher), hexadecimal(depth),
+                            hexadecimal(h_made), hexadecimal(h_layer_made)),
                 [&] { return by_gmsh(depth, h_made, h_layer_made, mesher); });
   TriangleMesh mesh = tag_by_position(std::move(vertices), std::move(triangles));
   for (int i = 0; i < halvings; ++i) mesh = refined(mesh);
