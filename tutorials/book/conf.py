@@ -55,6 +55,8 @@ def tighten(app, error):
             text = re.sub(r'<span class="(?:std std-ref|doc(?: std std-doc)?)">([^<]*)</span>', r"\1", text)
             text = re.sub(r' title="Permalink to this \w+"', "", text)
             text = text.replace('class="reference internal"', 'class="reference"')
+            # furo's script is no module any more (repair), and a browser refuses modules of a folder
+            text = text.replace('<script type="module" ', "<script defer ")
             parts = re.split(r"(<script.*?</script>)", text, flags=re.S)  # quotation marks that HTML does not need
             unquoted = (re.sub(r"<[a-zA-Z][^<>]*>", lambda tag: re.sub(r'="([\w.#-]+)"(?!\s*/)', r"=\1", tag[0]), part) for part in parts[::2])
             path.write_text("".join(part for pair in zip(unquoted, [*parts[1::2], ""]) for part in pair))
