@@ -168,7 +168,7 @@ for (const box of document.querySelectorAll("#run")) {
       at("#run-line").value = Object.entries(chosen).map(([name, value]) => `--${name} ${value}`).join(" ");
       again();
     });
-    for (const [, name, low, high, value] of help.matchAll(/--(cells|epsilon) \w+:\w+ in \[(\S+) - (\S+)\]=(\S+)/g)) {
+    for (const [, name, low, high, value] of help.matchAll(/--(cells|epsilon) \w+:\w+ in \[(\S+) - (\S+)\](?:=| \[)([^\s\]]+)/g)) {
       const cells = name === "cells", range = Object.assign(document.createElement("input"), { type: "range", id: `run-${name}` });
       const shown = document.createElement("output"), label = Object.assign(document.createElement("label"), { htmlFor: range.id, textContent: `${name} = ` });
       label.append(shown);
