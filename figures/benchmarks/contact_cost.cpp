@@ -20,7 +20,7 @@
 #include "programs/program.hpp"
 #include "unconstrained_cholesky.hpp"
 
-// Of the OpenMP library that CHOLMOD is linked to, as in solve/cholmod_cholesky.cpp.
+// These belong to the OpenMP library that CHOLMOD is linked to, as in solve/cholmod_cholesky.cpp.
 extern "C" int omp_get_max_active_levels();
 extern "C" void omp_set_max_active_levels(int levels);
 

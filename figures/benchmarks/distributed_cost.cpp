@@ -1,4 +1,5 @@
-// What the distributed solver costs beside the serial one, on the structured mesh: one line of numbers per run.
+// Measures the cost of the distributed solver and of the serial one on the structured mesh. Each run
+// prints one line of numbers.
 //
 // Run:    mpiexec -n 2 distributed_cost --cells 1024        PETSc, on two ranks
 //         distributed_cost --cells 1024 --serial            the library's own factor, in this process

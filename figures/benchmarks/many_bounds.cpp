@@ -1,5 +1,5 @@
-// What bounds on all unknowns cost: a membrane over an obstacle, on the Schur complement and on the sparse matrix, and
-// the number of bounds at which the two cost the same (the rule of ContactReduction, solve/penalised_cholesky.hpp).
+// Measures the cost of bounds on all unknowns: a membrane over an obstacle, on the Schur complement and on the sparse
+// matrix. Finds the number of bounds at which the two cost the same (ContactReduction, solve/penalised_cholesky.hpp).
 //
 // Run: many_bounds --out results/benchmark                 half a minute: the table, to 1/h = 512
 // Run: many_bounds --crossover --out results/benchmark     bounds on k rows of the vertices instead: 20 s

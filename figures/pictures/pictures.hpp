@@ -43,7 +43,7 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
 /// The settings of a picture of solutions from above, three per row, in a window of the plane, on
 /// one scale of colours.
 struct PlanStyle {
-  /// Of the colours, and of the window in x and y; empty: those of the data.
+  /// The range of the colours, and the window in x and y. Empty: the range of the data.
   std::optional<Range> range = {}, x = {}, y = {};
   std::string name = "$u$";  ///< the quantity on the scale of colours
   std::vector<std::string> row_titles;

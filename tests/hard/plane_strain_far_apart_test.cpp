@@ -134,7 +134,7 @@ RealMatrix assembled(const Block& block, const VectorSpace& space) {
         for (const auto& [i, of_i] : strain)
           for (const auto& [j, of_j] : strain) {
             const Real left = square.of.dot(of_i), right = square.of.dot(of_j);
-            k(i, j) += square.weight * triangle.twice / (2 * points) * left * right;
+            k(i, j) += square.weight * triangle.twice_area / (2 * points) * left * right;
           }
     }
   }

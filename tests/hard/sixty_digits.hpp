@@ -46,17 +46,17 @@ inline RealMatrix derivatives(const std::string& name, const Eigen::Matrix<Real,
 /// The gradients of the barycentric coordinates of triangle t, and twice its area.
 struct RealTriangle {
   Eigen::Matrix<Real, 3, 2> gradient;
-  Real twice;
+  Real twice_area;
 };
 inline RealTriangle real_triangle(const TriangleMesh& mesh, int t) {
   Eigen::Matrix<Real, 3, 2> x;
   for (int i = 0; i < 3; ++i) x.row(i) = mesh.vertices.row(mesh.triangles(t, i)).cast<Real>();
   RealTriangle triangle;
-  triangle.twice = (x(1, 0) - x(0, 0)) * (x(2, 1) - x(0, 1)) - (x(2, 0) - x(0, 0)) * (x(1, 1) - x(0, 1));
+  triangle.twice_area = (x(1, 0) - x(0, 0)) * (x(2, 1) - x(0, 1)) - (x(2, 0) - x(0, 0)) * (x(1, 1) - x(0, 1));
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, l = (i + 2) % 3;
-    triangle.gradient(i, 0) = (x(j, 1) - x(l, 1)) / triangle.twice;
-    triangle.gradient(i, 1) = (x(l, 0) - x(j, 0)) / triangle.twice;
+    triangle.gradient(i, 0) = (x(j, 1) - x(l, 1)) / triangle.twice_area;
+    triangle.gradient(i, 1) = (x(l, 0) - x(j, 0)) / triangle.twice_area;
   }
   return triangle;
 }

@@ -56,7 +56,7 @@ RealMatrix assembled(const Question& q, const Space& space) {
   };
   const auto [at, weights] = gauss_rule(q.element->degree() + 2);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const auto [gradient, twice] = real_triangle(mesh, t);
+    const auto [gradient, twice_area] = real_triangle(mesh, t);
     Real in_x = q.stiffness[t], in_y = in_x;
     if (mesh.region[t] == Region::layer) {
       in_x = q.layer->s;
@@ -68,7 +68,7 @@ RealMatrix assembled(const Question& q, const Space& space) {
       if (name == "P2")
         for (int i = 0; i < 3; ++i) l(i) = i == p ? Real(0) : Real(0.5);
       const RealMatrix d = derivatives(name, l) * gradient;
-      const Real weight = twice / (name == "P2" ? 6 : 2);
+      const Real weight = twice_area / (name == "P2" ? 6 : 2);
       add(t, d.col(0), weight * in_x);
       add(t, d.col(1), weight * in_y);
     }

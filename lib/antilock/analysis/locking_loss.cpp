@@ -405,7 +405,8 @@ LockingLoss locking_loss(const Scene& scene, const Result& result) {
   // seem to be worth is at most 2.2 ulp of that (LockingLoss.HasNoMotionWhereAllIsAtRest), and ten times as much is
   // room
   round_off += 20 * ulp * way.head(points).cwiseAbs().dot(Eigen::VectorXd(strip.a1.diagonal().head(points)));
-  if (lost.reference < round_off / significance) lost.reference = 0;  // else round-off could be the share that is told
+  // below this the round-off alone would be a share that is reported
+  if (lost.reference < round_off / significance) lost.reference = 0;
   if (!scene.contact()) return lost;
 
   const Trace fine = trace_at(element, Eigen::VectorXd::LinSpaced(33, 0, 1));

@@ -32,7 +32,7 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
   LockingLoss energy;
   try {
     energy = locking_loss(scene, result);
-  } catch (const Error& error) {  // the answer stands, whatever becomes of what is told about it
+  } catch (const Error& error) {  // the solution is valid even where no report on it can be made
     report.diagnosis += std::string("; nothing is known of what it costs (") + error.what() + ")";
     return report;
   }

@@ -10,8 +10,9 @@
 #include "antilock/solve/defaults.hpp"
 #include "antilock/solve/sparse_cholesky.hpp"
 
-// Of the OpenMP library that CHOLMOD is linked to; the <omp.h> that a compiler finds may be that of another.
-// Declared here, and absent where CHOLMOD was built without OpenMP: the addresses are null then.
+// These functions belong to the OpenMP library that CHOLMOD is linked to. They are declared here,
+// because the <omp.h> that a compiler finds may be that of another library. Where CHOLMOD was built
+// without OpenMP they are absent, and their addresses are null.
 extern "C" {
 [[gnu::weak]] int omp_get_max_active_levels();
 [[gnu::weak]] void omp_set_max_active_levels(int levels);

@@ -317,19 +317,20 @@ TEST(Plate, ValuesOutOfRangeAreRefused) {
     test::expect_refused([&] { assemble(Plate{.thickness = t}, on.space); }, "accepted 0 to 1");
   for (const double nu : {-0.1, 1.0})
     test::expect_refused([&] { assemble(Plate{.poisson = nu}, on.space); }, "Poisson");
-  Plate sunk;  // below the obstacle on a part of the rim
+  Plate below_obstacle;  // below the obstacle on a part of the rim
   const TriangleMesh group = retagged(mesh, [](double, double) { return dirichlet_group(0); });
   const On named(arnold_falk, group);
-  EXPECT_TRUE(assemble(sunk, named.space).a1.isApprox(assemble(sunk, on.space).a1)) << "held under whatever name";
-  sunk.gap = [](double x, double) { return x > 0.9 ? -0.1 : 1.0; };
+  EXPECT_TRUE(assemble(below_obstacle, named.space).a1.isApprox(assemble(below_obstacle, on.space).a1))
+      << "held under whatever name";
+  below_obstacle.gap = [](double x, double) { return x > 0.9 ? -0.1 : 1.0; };
   for (const On* rim : {&on, &named})
-    test::expect_refused([&] { assemble(sunk, rim->space); }, "below the obstacle at 0.1");
-  sunk.gap = [](double x, double) { return x < 0 ? 0.1 : 1e13; };  // large elsewhere: hides nothing
-  sunk.boundary_deflection = [](double, double) { return -1.0; };
-  test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at -0.1");
-  sunk.boundary_deflection = [](double, double) { return 0.0; };  // a thousandth of the gap beside it below
-  sunk.gap = [](double x, double y) { return x * x + y * y > 0.99 ? -1e-4 : 0.1; };
-  test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at 0.0001");
+    test::expect_refused([&] { assemble(below_obstacle, rim->space); }, "below the obstacle at 0.1");
+  below_obstacle.gap = [](double x, double) { return x < 0 ? 0.1 : 1e13; };  // large elsewhere: hides nothing
+  below_obstacle.boundary_deflection = [](double, double) { return -1.0; };
+  test::expect_refused([&] { assemble(below_obstacle, on.space); }, "below the obstacle at -0.1");
+  below_obstacle.boundary_deflection = [](double, double) { return 0.0; };  // a thousandth of the gap beside it below
+  below_obstacle.gap = [](double x, double y) { return x * x + y * y > 0.99 ? -1e-4 : 0.1; };
+  test::expect_refused([&] { assemble(below_obstacle, on.space); }, "below the obstacle at 0.0001");
   TriangleMesh rounded = mesh;  // an obstacle that meets the rim, whose corners are where they are to 1e-9
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_tag[e] == EdgeTag::clamped)
