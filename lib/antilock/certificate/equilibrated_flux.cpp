@@ -22,13 +22,12 @@ const Field* traction_on(const Scene& scene, EdgeTag tag) {
   return k < 0 || scene.edges()[k].kind != BoundaryCondition::Kind::traction ? nullptr : &scene.edges()[k].value;
 }
 
-void check_request(const Scene& scene, const Result& result) {
-  const Space& space = result.space;
-  const VariationalInequality& problem = result.problem;
-  const Solution& solution = result.solution;
-  require_lower_bounds(problem, "certificate");
-  if (space.element().name() != "CR")
-    throw Error("certificate: element " + space.element().name() +
+/// Throws for an element, a feature or a layer without a flux in equilibrium.
+void check_scene(const Scene& scene, const Result& result) {
+  require_lower_bounds(result.problem, "certificate");
+  const Element& element = result.space.element();
+  if (element.name() != "CR")
+    throw Error("certificate: element " + element.name() +
                 " has no flux in equilibrium; accepted: CR, and certified_distance to it");
   if (const std::string beyond = scene.beyond_the_certificate(); !beyond.empty())
     throw Error("certificate: has no flux for " + beyond + "; accepted: a scene without it");
@@ -36,60 +35,88 @@ void check_request(const Scene& scene, const Result& result) {
     throw Error(
         "certificate: the Ventcel layer has no flux of its own; accepted: the scaled layer with epsilon = 0, which is "
         "the same problem");
+}
+
+/// Throws unless u and p are finite, and of the sizes that the scene has on this space.
+void check_solution(const Scene& scene, const Result& result) {
+  const Space& space = result.space;
+  const VariationalInequality& problem = result.problem;
+  const Solution& solution = result.solution;
   const auto& region = space.mesh().region;
-  const auto layer = std::count(region.begin(), region.end(), Region::layer);
   const bool split = std::holds_alternative<StiffLayer>(scene.layer());
-  if (problem.size() != space.size() || solution.u.size() != space.size() || problem.b.rows() != (split ? layer : 0) ||
+  const auto rows = split ? std::count(region.begin(), region.end(), Region::layer) : 0;
+  if (problem.size() != space.size() || solution.u.size() != space.size() || problem.b.rows() != rows ||
       solution.p.size() != problem.b.rows())
     throw Error(fmt::format(
         "certificate: problem and solution have {} and {} unknowns, {} and {} layer stresses; accepted: {} and {}, of "
         "the scene on this space",
-        problem.size(), solution.u.size(), problem.b.rows(), solution.p.size(), space.size(), split ? layer : 0));
+        problem.size(), solution.u.size(), problem.b.rows(), solution.p.size(), space.size(), rows));
   if (!solution.u.allFinite() || !solution.p.allFinite())
     throw Error("certificate: the solution is not finite; accepted: finite numbers");
+}
+
+/// Throws for conditions on the boundary that the flux does not have.
+void check_boundary(const Scene& scene, const Space& space, const VariationalInequality& problem) {
+  const TriangleMesh& mesh = space.mesh();
   if (problem.contact.empty() == scene.contact().has_value() && !space.contact_dofs().empty())
     throw Error("certificate: scene and problem do not agree whether there is contact");
-  for (int e = 0; e < space.mesh().edge_count(); ++e)
-    if (traction_on(scene, space.mesh().edge_tag[e]) != nullptr &&
-        region[space.mesh().edge_triangles(e, 0)] == Region::layer)
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const bool of_layer = mesh.region[mesh.edge_triangles(e, 0)] == Region::layer;
+    if (of_layer && traction_on(scene, mesh.edge_tag[e]) != nullptr)
       throw Error("certificate: has no flux for a traction on the layer; accepted: on the body");
+  }
   for (const int e : problem.dirichlet_dofs)
-    if (space.mesh().edge_triangles(e, 1) >= 0)
+    if (mesh.edge_triangles(e, 1) >= 0)
       throw Error("certificate: a value is fixed inside the domain; accepted: on the boundary");
   for (const int e : problem.contact)
-    if (space.mesh().edge_tag[e] != EdgeTag::contact)
+    if (mesh.edge_tag[e] != EdgeTag::contact)
       throw Error("certificate: an unknown off Gamma_C is bounded; accepted: bounds on the edges in the group contact");
 }
 
-/// The conforming v takes the displacement given on an edge as it is: affine, and the same at a vertex from either side.
+/// Throws unless the displacement given on edge e is affine, with the values `at_vertices` at its
+/// ends, as far as three points between them show: the conforming v takes it as it is.
+void check_displacement_on(const Scene& scene, const TriangleMesh& mesh, int e, const Eigen::VectorXd& at_vertices,
+                           double tolerance) {
+  const int from = mesh.edges(e, 0);
+  const int to = mesh.edges(e, 1);
+  const int group = mesh.edge_tag[e].group;
+  for (int part = 0; part <= 4; ++part) {
+    const double s = part / 4.0;
+    const double affine = (1 - s) * at_vertices(from) + s * at_vertices(to);
+    const Eigen::RowVector2d x = (1 - s) * mesh.vertices.row(from) + s * mesh.vertices.row(to);
+    const double given = group < 0 ? 0 : scene.edges()[group].value(x(0), x(1));
+    const double off = given - affine;
+    if (!(std::abs(off) <= tolerance))
+      throw Error(
+          fmt::format("certificate: the displacement given at ({:.6g}, {:.6g}) is {:.1e} off that of the vertices "
+                      "beside it; accepted: values that do not jump, affine on every edge of the mesh",
+                      x(0), x(1), off));
+  }
+}
+
+/// Throws unless the given displacement is affine on each edge, and the same at a vertex from
+/// either side.
 void check_displacement(const Scene& scene, const TriangleMesh& mesh) {
   const Eigen::VectorXd at_vertices = dirichlet_vertex_values(scene, mesh);
-  const double largest = at_vertices.cwiseAbs().maxCoeff();
+  const double tolerance = 1e-11 * at_vertices.cwiseAbs().maxCoeff();
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    const int from = mesh.edges(e, 0), to = mesh.edges(e, 1), k = mesh.edge_tag[e].group;
-    if (!is_dirichlet(mesh.edge_tag[e]) || (k >= 0 && mesh.region[mesh.edge_triangles(e, 0)] == Region::layer))
-      continue;
-    for (int part = 0; part <= 4; ++part) {
-      const double s = part / 4.0, affine = (1 - s) * at_vertices(from) + s * at_vertices(to);
-      const Eigen::RowVector2d x = (1 - s) * mesh.vertices.row(from) + s * mesh.vertices.row(to);
-      if (const double off = (k < 0 ? 0 : scene.edges()[k].value(x(0), x(1))) - affine;
-          !(std::abs(off) <= 1e-11 * largest))
-        throw Error(
-            fmt::format("certificate: the displacement given at ({:.6g}, {:.6g}) is {:.1e} off that of the vertices "
-                        "beside it; accepted: values that do not jump, affine on every edge of the mesh",
-                        x(0), x(1), off));
-    }
+    if (!is_dirichlet(mesh.edge_tag[e])) continue;
+    const bool given = mesh.edge_tag[e].group >= 0;
+    if (given && mesh.region[mesh.edge_triangles(e, 0)] == Region::layer) continue;
+    check_displacement_on(scene, mesh, e, at_vertices, tolerance);
   }
 }
 
 /// kappa of a triangle, which must be one number on it, as far as six more points tell.
 double constant_stiffness(const Field& stiffness, const TriangleMesh& mesh, int t) {
   const double kappa = stiffness_on(stiffness, mesh, t);
-  for (int i = 0; i < 6 && stiffness; ++i) {  // beside the corners, then beside the middles of the edges
+  if (!stiffness) return kappa;
+  for (int i = 0; i < 6; ++i) {  // beside the corners, then beside the middles of the edges
     Eigen::Vector3d there = Eigen::Vector3d::Unit(i % 3);
     if (i >= 3) there = (Eigen::Vector3d::Ones() - there) / 2;
     const Eigen::Vector2d x = point_in(mesh, t, 0.98 * there + Eigen::Vector3d::Constant(0.02 / 3));
-    if (const double other = stiffness(x(0), x(1)); std::abs(other - kappa) > 1e-12 * kappa)
+    const double other = stiffness(x(0), x(1));
+    if (std::abs(other - kappa) > 1e-12 * kappa)
       throw Error(
           fmt::format("certificate: the stiffness is {:.6g} and {:.6g} on the triangle at ({:.6g}, {:.6g}); "
                       "accepted: one number per triangle, as of groups of surfaces",
@@ -98,8 +125,9 @@ double constant_stiffness(const Field& stiffness, const TriangleMesh& mesh, int 
   return kappa;
 }
 
-/// A traction g on edge i of a triangle, from its corner (i + 1) % 3 (s = 0) to the next (s = 1): the means of g and of
-/// g (s - 1/2), and |g - g_1| over the edge, g_1 = mean + 12 moment (s - 1/2).
+/// A traction g on edge i of a triangle, from its corner (i + 1) % 3 (s = 0) to the next (s = 1):
+/// the means of g and of g (s - 1/2), and |g - g_1| over the edge, g_1 = mean + 12 moment (s -
+/// 1/2).
 struct TractionOn {
   double mean = 0, moment = 0, rest = 0;
 
@@ -137,9 +165,8 @@ struct LoadOn {
     const Eigen::VectorXd affine = rule.points * f;  // f_1 at the points
     rest2 = rule.weights.dot((values - affine).cwiseAbs2());
   }
-  double of_basis(int i) const {
-    return mean_lambda.sum() - 2 * mean_lambda(i);
-  }  ///< of f phi_i, phi_i = 1 - 2 lambda_i
+  /// The mean of f phi_i, where phi_i = 1 - 2 lambda_i.
+  double of_basis(int i) const { return mean_lambda.sum() - 2 * mean_lambda(i); }
 };
 
 /// Where the affine part of f leaves out a tenth of it, the solver's rule may miss what is left.
@@ -150,7 +177,10 @@ double mean_gap(const Profile& gap, double from, double to) {
   constexpr int parts = 16;
   double sum = 0;
   for (int k = 0; k < parts; ++k)
-    for (const double side : {-1.0, 1.0}) sum += gap(from + (to - from) * (k + 0.5 + side / std::sqrt(12.0)) / parts);
+    for (const double side : {-1.0, 1.0}) {
+      const double place = k + 0.5 + side / std::sqrt(12.0);
+      sum += gap(from + (to - from) * place / parts);
+    }
   return sum / (2 * parts);
 }
 
@@ -160,7 +190,8 @@ double longest_edge(const TriangleMesh& mesh, int t) {
   return longest;
 }
 
-/// What the problem says of its own residual must be what the scene says: else the two are not one question.
+/// Throws unless the residual by the forms of the problem is `ours`, that of the scene: else the
+/// two are not one question.
 void check_same_question(const VariationalInequality& problem, const Solution& solution, const Eigen::VectorXd& ours) {
   Eigen::VectorXd theirs = problem.a1 * solution.u;
   double size = problem.a1.diagonal().cwiseAbs().maxCoeff() * solution.u.lpNorm<Eigen::Infinity>() +
@@ -178,8 +209,7 @@ void check_same_question(const VariationalInequality& problem, const Solution& s
                     off / size));
 }
 
-}  // namespace
-
+/// A of the layer.
 FluxLaw layer_law(const Scene& scene) {
   if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer()))
     return {true, stiff->s, 1 / stiff->s, class_parameter(*stiff) / stiff->s};
@@ -188,7 +218,154 @@ FluxLaw layer_law(const Scene& scene) {
   return {};
 }
 
-// sum_i f_i lambda_i (x - P_i) = f_1 x - sum_i f_i lambda_i P_i; the mean of f x is sum_i mean(f lambda_i) P_i
+/// The flux while it is made, triangle by triangle.
+class FluxBuilder {
+ public:
+  FluxBuilder(const Scene& scene, const Result& result)
+      : scene_(scene), space_(result.space), mesh_(space_.mesh()), solution_(result.solution) {
+    flux_.law = layer_law(scene);
+    flux_.cell.resize(mesh_.triangle_count());
+    flux_.traction_load = Eigen::VectorXd::Zero(mesh_.vertex_count());
+    assembled_ = Eigen::VectorXd::Zero(space_.size());
+    finer_ = Eigen::VectorXd::Zero(space_.size());
+  }
+
+  /// Computes S_h, tau and the oscillation of each triangle, and the residual r.
+  EquilibratedFlux flux(const VariationalInequality& problem) {
+    for (int t = 0; t < mesh_.triangle_count(); ++t) add_triangle(t);
+    for (int k = 0; k < static_cast<int>(scene_.edges().size()); ++k) add_usual_traction(natural_group(k));
+    check_same_question(problem, solution_, assembled_);
+    flux_.residual = assembled_ - finer_;
+    return std::move(flux_);
+  }
+
+ private:
+  void add_triangle(int t) {
+    FluxCell& here = flux_.cell[t];
+    const double area = mesh_.area(t);
+    const auto dof = space_.cell_dofs().row(t);
+    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh_, t);
+    const Eigen::Vector2d gradient = -2 * lambda.transpose() * Eigen::Vector3d(solution_.u(dof));
+    if (mesh_.region[t] == Region::layer)
+      add_layer_flux(here, gradient);
+    else
+      add_body_flux(t, gradient);
+    flux_.norm2 += area * here.law.squared(here.s) + here.tau2;                              // tau has mean zero on T
+    for (int i = 0; i < 3; ++i) assembled_(dof(i)) -= 2 * area * here.s.dot(lambda.row(i));  // grad phi_i
+  }
+
+  void add_layer_flux(FluxCell& here, const Eigen::Vector2d& gradient) {
+    here.law = flux_.law;
+    here.s = here.law.stiffness * gradient;
+    if (!here.law.split) return;
+    here.s(1) = here.law.stiffness * solution_.p(layer_row_);
+    ++layer_row_;
+  }
+
+  void add_body_flux(int t, const Eigen::Vector2d& gradient) {
+    FluxCell& here = flux_.cell[t];
+    const double area = mesh_.area(t);
+    const double load_rest2 = add_load(t);
+    const double kappa = constant_stiffness(scene_.body().stiffness, mesh_, t);
+    here.law = {false, kappa, 1 / kappa, 1 / kappa};
+    here.s = kappa * gradient;
+    const double h = longest_edge(mesh_, t);
+    double oscillation = h / std::numbers::pi * std::sqrt(area * load_rest2);
+    for (int i = 0; i < 3; ++i) {
+      const Field* const g = traction_on(scene_, mesh_.edge_tag[mesh_.triangle_edges(t, i)]);
+      if (g != nullptr) oscillation += add_traction(t, i, *g, h);
+    }
+    here.oscillation2 = oscillation * oscillation / kappa;
+    flux_.oscillation2 += here.oscillation2;
+    const Quadrature& rule = radon_rule();  // tau^2 is of degree 4
+    const Eigen::MatrixX2d tau = flux_.tau(mesh_, t, rule.points);
+    here.tau2 = area / kappa * rule.weights.dot(tau.rowwise().squaredNorm());
+    flux_.tau2 += here.tau2;
+  }
+
+  /// Sets f_1. Returns the mean of (f - f_1)^2.
+  double add_load(int t) {
+    static const Quadrature& fine_rule = triangle_rule(12);
+    const Field& f = scene_.body().load;
+    const double area = mesh_.area(t);
+    const auto dof = space_.cell_dofs().row(t);
+    const LoadOn usual(mesh_, t, load_rule(space_.element()), f);
+    LoadOn load = usual;
+    if (needs_finer_rule(usual)) {
+      load = LoadOn(mesh_, t, fine_rule, f);
+      for (int i = 0; i < 3; ++i) finer_(dof(i)) += area * (load.of_basis(i) - usual.of_basis(i));
+    }
+    for (int i = 0; i < 3; ++i) assembled_(dof(i)) -= area * usual.of_basis(i);
+    flux_.cell[t].f = load.f;
+    return load.rest2;
+  }
+
+  /// Adds the traction g on edge i. Returns C_E |g - g_1|_E (certificate.cpp), h the diameter of t.
+  double add_traction(int t, int i, const Field& g, double h) {
+    const TractionOn edge(mesh_, t, i, g);
+    const auto dof = space_.cell_dofs().row(t);
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    const double length = mesh_.edge_length(mesh_.triangle_edges(t, i));
+    flux_.cell[t].traction(i) = -6 * edge.moment * length;
+    flux_.traction_load(mesh_.triangles(t, j)) += length * (edge.mean / 2 - edge.moment);
+    flux_.traction_load(mesh_.triangles(t, k)) += length * (edge.mean / 2 + edge.moment);
+    finer_(dof(i)) += length * edge.mean;
+    finer_(dof(j)) += 2 * length * edge.moment;
+    finer_(dof(k)) -= 2 * length * edge.moment;
+    const double area = mesh_.area(t);
+    return edge.rest * h * std::sqrt(length / area * (1 / std::numbers::pi + 1) / std::numbers::pi);
+  }
+
+  /// The traction as the solver integrates it. add_traction has added it by a finer rule.
+  void add_usual_traction(EdgeTag tag) {
+    const Field* const g = traction_on(scene_, tag);
+    if (g == nullptr) return;
+    const Eigen::VectorXd usual = edge_load(space_, tag, *g);
+    assembled_ -= usual;
+    finer_ -= usual;
+  }
+
+  const Scene& scene_;
+  const Space& space_;
+  const TriangleMesh& mesh_;
+  const Solution& solution_;
+  EquilibratedFlux flux_;
+  Eigen::VectorXd assembled_;  ///< r, with the loads as the solver integrates them
+  Eigen::VectorXd finer_;      ///< what finer rules add to the loads
+  int layer_row_ = 0;
+};
+
+/// Splits r into contact forces on Gamma_C and the imbalance.
+void add_contact_forces(EquilibratedFlux& flux, const Scene& scene, const TriangleMesh& mesh,
+                        const VariationalInequality& problem) {
+  flux.imbalance = flux.residual;
+  for (const int e : problem.dirichlet_dofs) flux.imbalance(e) = 0;
+  const auto contact = static_cast<Eigen::Index>(problem.contact.size());
+  flux.lambda.resize(contact);
+  flux.gap.resize(contact);
+  for (Eigen::Index i = 0; i < contact; ++i) {
+    const int e = problem.contact[i];  // the unknown of Crouzeix-Raviart is the edge
+    flux.lambda(i) = std::max(flux.residual(e), 0.0);
+    flux.imbalance(e) -= flux.lambda(i);
+    const double from = mesh.vertices(mesh.edges(e, 0), 0);
+    const double to = mesh.vertices(mesh.edges(e, 1), 0);
+    flux.gap(i) = mean_gap(scene.contact()->gap, from, to);
+  }
+}
+
+/// D, the energy of the dual problem.
+double dual_energy(const EquilibratedFlux& flux, const VariationalInequality& problem) {
+  double energy = -flux.norm2 / 2 - flux.lambda.dot(flux.gap);
+  for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
+    energy += flux.residual(problem.dirichlet_dofs[i]) * problem.dirichlet_values(static_cast<Eigen::Index>(i));
+  return energy;
+}
+
+}  // namespace
+
+// sum_i f_i lambda_i (x - P_i) = f_1 x - sum_i f_i lambda_i P_i; the mean of f x is sum_i mean(f
+// lambda_i) P_i
 Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Eigen::MatrixX3d& barycentric) const {
   const FluxCell& here = cell[t];
   const Eigen::Matrix<double, 3, 2> corner = mesh.vertices(mesh.triangles.row(t), Eigen::all);
@@ -204,8 +381,9 @@ Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Ei
   }
   if (here.traction.isZero(0)) return tau;
   const Eigen::Matrix<double, 3, 2> gradient = barycentric_gradients(mesh, t);
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;  // grad (lambda_j lambda_k) less its mean, turned
+  for (int i = 0; i < 3; ++i) {  // grad (lambda_j lambda_k) less its mean, turned
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
     const Eigen::MatrixX2d slope = (barycentric.col(j).array() - 1.0 / 3).matrix() * gradient.row(k) +
                                    (barycentric.col(k).array() - 1.0 / 3).matrix() * gradient.row(j);
     tau.col(0) += here.traction(i) * slope.col(1);
@@ -215,95 +393,15 @@ Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Ei
 }
 
 EquilibratedFlux equilibrated_flux(const Scene& scene, const Result& result) {
-  const Space& space = result.space;
   const VariationalInequality& problem = result.problem;
-  const Solution& solution = result.solution;
   if ((problem.fixed_compliances.array() > 0).any()) return equilibrated_flux(scene, assemble_fixed_rows(result));
-  check_request(scene, result);
-  check_displacement(scene, space.mesh());
-  static const Quadrature& fine_rule = triangle_rule(12);
-  const TriangleMesh& mesh = space.mesh();
-  const Quadrature &rule = load_rule(space.element()), &square_rule = radon_rule();  // tau^2 is of degree 4
-  EquilibratedFlux flux;
-  flux.law = layer_law(scene);
-  flux.cell.resize(mesh.triangle_count());
-  flux.traction_load = Eigen::VectorXd::Zero(mesh.vertex_count());
-  Eigen::VectorXd assembled = Eigen::VectorXd::Zero(space.size());  // r with the load as the solver integrates it
-  Eigen::VectorXd finer = Eigen::VectorXd::Zero(space.size());      // what a finer rule adds to the load
-  int layer_row = 0;
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    FluxCell& here = flux.cell[t];
-    const double area = mesh.area(t);
-    const auto unknown = space.cell_dofs().row(t);
-    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
-    const Eigen::Vector2d gradient = -2 * lambda.transpose() * Eigen::Vector3d(solution.u(unknown));
-    if (mesh.region[t] == Region::layer) {
-      here.law = flux.law;
-      here.s = here.law.stiffness * gradient;
-      if (here.law.split) here.s(1) = here.law.stiffness * solution.p(layer_row++);
-    } else {
-      const LoadOn usual(mesh, t, rule, scene.body().load);
-      LoadOn load = usual;
-      if (needs_finer_rule(usual)) {
-        load = LoadOn(mesh, t, fine_rule, scene.body().load);
-        for (int i = 0; i < 3; ++i) finer(unknown(i)) += area * (load.of_basis(i) - usual.of_basis(i));
-      }
-      here.f = load.f;
-      const double kappa = constant_stiffness(scene.body().stiffness, mesh, t);
-      here.law = {false, kappa, 1 / kappa, 1 / kappa};
-      here.s = kappa * gradient;
-      const double h = longest_edge(mesh, t);
-      double oscillation = h / std::numbers::pi * std::sqrt(area * load.rest2);
-      for (int i = 0; i < 3; ++i) {
-        const Field* const g = traction_on(scene, mesh.edge_tag[mesh.triangle_edges(t, i)]);
-        if (g == nullptr) continue;
-        const TractionOn edge(mesh, t, i, *g);
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const double length = mesh.edge_length(mesh.triangle_edges(t, i));
-        here.traction(i) = -6 * edge.moment * length;
-        flux.traction_load(mesh.triangles(t, j)) += length * (edge.mean / 2 - edge.moment);
-        flux.traction_load(mesh.triangles(t, k)) += length * (edge.mean / 2 + edge.moment);
-        finer(unknown(i)) += length * edge.mean;
-        finer(unknown(j)) += 2 * length * edge.moment;
-        finer(unknown(k)) -= 2 * length * edge.moment;
-        oscillation += edge.rest * h * std::sqrt(length / area * (1 / std::numbers::pi + 1) / std::numbers::pi);
-      }
-      here.oscillation2 = oscillation * oscillation / kappa;
-      flux.oscillation2 += here.oscillation2;
-      for (int i = 0; i < 3; ++i) assembled(unknown(i)) -= area * usual.of_basis(i);
-      const Eigen::MatrixX2d tau = flux.tau(mesh, t, square_rule.points);
-      here.tau2 = area / kappa * square_rule.weights.dot(tau.rowwise().squaredNorm());
-      flux.tau2 += here.tau2;
-    }
-    flux.norm2 += area * here.law.squared(here.s) + here.tau2;  // tau has mean zero on T
-    for (int i = 0; i < 3; ++i) assembled(unknown(i)) -= 2 * area * here.s.dot(lambda.row(i));  // grad phi_i
-  }
-  for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k) {
-    const Field* const g = traction_on(scene, natural_group(k));
-    if (g == nullptr) continue;
-    const Eigen::VectorXd usual = edge_load(space, natural_group(k), *g);
-    assembled -= usual;
-    finer -= usual;
-  }
-  check_same_question(problem, solution, assembled);
-  flux.residual = assembled - finer;
-
-  flux.imbalance = flux.residual;
-  for (const int e : problem.dirichlet_dofs) flux.imbalance(e) = 0;
-  const auto contact = static_cast<Eigen::Index>(problem.contact.size());
-  flux.lambda.resize(contact);
-  flux.gap.resize(contact);
-  for (Eigen::Index i = 0; i < contact; ++i) {
-    const int e = problem.contact[i];  // the unknown of Crouzeix-Raviart is the edge
-    flux.lambda(i) = std::max(flux.residual(e), 0.0);
-    flux.imbalance(e) -= flux.lambda(i);
-    flux.gap(i) =
-        mean_gap(scene.contact()->gap, mesh.vertices(mesh.edges(e, 0), 0), mesh.vertices(mesh.edges(e, 1), 0));
-  }
-  flux.dual_energy = -flux.norm2 / 2 - flux.lambda.dot(flux.gap);
-  for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
-    flux.dual_energy +=
-        flux.residual(problem.dirichlet_dofs[i]) * problem.dirichlet_values(static_cast<Eigen::Index>(i));
+  check_scene(scene, result);
+  check_solution(scene, result);
+  check_boundary(scene, result.space, problem);
+  check_displacement(scene, result.space.mesh());
+  EquilibratedFlux flux = FluxBuilder(scene, result).flux(problem);
+  add_contact_forces(flux, scene, result.space.mesh(), problem);
+  flux.dual_energy = dual_energy(flux, problem);
   return flux;
 }
 
