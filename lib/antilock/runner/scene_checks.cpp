@@ -18,12 +18,13 @@
 namespace antilock {
 namespace {
 
-/// The place of point k in a triangle: a sequence of low discrepancy in the unit square (Roberts 2018, the plastic
-/// number), folded to the triangle. No two points of a run have the same x or the same y, so that strips are found
-/// as well as spots.
+/// The place of point k in a triangle: a sequence of low discrepancy in the unit square (Roberts
+/// 2018, the plastic number), folded to the triangle. No two points of a run have the same x or the
+/// same y, so that strips are found as well as spots.
 Eigen::Vector3d spread_point(double k) {
   constexpr double plastic = 1.32471795724474602596;
-  double a = std::fmod(0.5 + k * (1 / plastic), 1), b = std::fmod(0.5 + k * (1 / (plastic * plastic)), 1);
+  double a = std::fmod(0.5 + k * (1 / plastic), 1);
+  double b = std::fmod(0.5 + k * (1 / (plastic * plastic)), 1);
   if (a + b > 1) {
     a = 1 - a;
     b = 1 - b;
@@ -31,7 +32,8 @@ Eigen::Vector3d spread_point(double k) {
   return {1 - a - b, a, b};
 }
 
-/// 1, a, b, a a, a b, b b at a point of a triangle with the barycentric coordinates (1 - a - b, a, b).
+/// 1, a, b, a a, a b, b b at a point of a triangle with the barycentric coordinates (1 - a - b, a,
+/// b).
 Eigen::Matrix<double, 6, 1> quadratics(const Eigen::Vector3d& lambda) {
   const double a = lambda(1), b = lambda(2);
   return Eigen::Matrix<double, 6, 1>(1, a, b, a * a, a * b, b * b);
@@ -53,6 +55,92 @@ Eigen::VectorXd prescribed(const SceneFile& file, const TriangleMesh& mesh) {
     for (const int v : mesh.edges.row(e))
       if (is_dirichlet(mesh.edge_tag[e])) values(v) = given(v);
   return values;
+}
+
+double body_area(const TriangleMesh& mesh) {
+  double area = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::body) area += mesh.area(t);
+  return area;
+}
+
+/// The load f on the body by samples, which stand for the same area each: a triangle may have many,
+/// or none.
+class LoadSamples {
+ public:
+  LoadSamples(const Space& space, const Field& f) : space_(space), f_(f), area_(body_area(space.mesh())) {
+    const Quadrature& rule = load_rule(space.element());
+    const Eigen::MatrixXd fit = quadratic_fit(rule);
+    const TriangleMesh& mesh = space.mesh();
+    double due = 0;  // samples, of the triangles so far, that have not been taken
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      if (mesh.region[t] != Region::body) continue;
+      due += points * mesh.area(t) / area_;
+      const int here = static_cast<int>(due);
+      due -= here;
+      if (here == 0) continue;
+      // f is fitted on as many triangles as leave its values at the points of the rule no more than
+      // the samples
+      const bool fits = at_points_ <= count_;
+      Eigen::VectorXd quadratic;
+      if (fits) quadratic = fit * values_at(rule, t);
+      for (int i = 0; i < here; ++i) add_sample(t, fits, quadratic);
+    }
+  }
+
+  double count() const { return count_; }
+  const Eigen::Vector3d& integrals() const { return sampled_; }  ///< of f (1, x, y)
+  const Eigen::Vector3d& sizes() const { return size_; }         ///< of |f| (1, |x|, |y|)
+  /// Whether the integral of |f - q| is above a quarter of that of |f|, on the triangles that are
+  /// fitted. q is the quadratic that fits f best at the points of the rule.
+  bool is_unseen() const { return unseen_ > 0.25 * fitted_; }
+  double unseen_percent() const { return 100 * unseen_ / fitted_; }
+
+ private:
+  static constexpr int points = 1 << 18;
+
+  Eigen::VectorXd values_at(const Quadrature& rule, int t) {
+    Eigen::VectorXd values(rule.weights.size());
+    for (Eigen::Index q = 0; q < values.size(); ++q) {
+      const Eigen::Vector2d x = point_in(space_.mesh(), t, rule.points.row(q));
+      values(q) = f_(x(0), x(1));
+    }
+    at_points_ += values.size();
+    return values;
+  }
+
+  void add_sample(int t, bool fits, const Eigen::VectorXd& quadratic) {
+    ++count_;
+    const Eigen::Vector3d lambda = spread_point(count_);
+    const Eigen::Vector2d x = point_in(space_.mesh(), t, lambda);
+    const double part = f_(x(0), x(1)) * area_ / points;
+    if (fits) {
+      unseen_ += std::abs(part - quadratics(lambda).dot(quadratic) * area_ / points);
+      fitted_ += std::abs(part);
+    }
+    sampled_ += part * Eigen::Vector3d(1, x(0), x(1));
+    size_ += std::abs(part) * Eigen::Vector3d(1, std::abs(x(0)), std::abs(x(1)));
+  }
+
+  const Space& space_;
+  const Field& f_;
+  double area_;
+  double count_ = 0;
+  double at_points_ = 0;  ///< values of f at points of the rule
+  Eigen::Vector3d sampled_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d size_ = Eigen::Vector3d::Zero();
+  double unseen_ = 0;  ///< the integral of |f - q|
+  double fitted_ = 0;  ///< the integral of |f| on the same triangles
+};
+
+/// The integrals of f (1, x, y) by the quadrature: the basis sums to 1, and with the places of the
+/// unknowns as weights to x and to y.
+Eigen::Vector3d integrals_by_quadrature(const SceneFile& file, const Space& space,
+                                        const VariationalInequality& problem) {
+  const bool alone = beyond_the_paper(file).empty();  // else edges and the layer load, too
+  const Eigen::VectorXd load = alone ? problem.load : load_vector(space, file.scene.body().load);
+  const Points& at = space.dof_coordinates();
+  return {load.sum(), load.dot(at.col(0)), load.dot(at.col(1))};
 }
 
 }  // namespace
@@ -99,65 +187,23 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
 }
 
 std::string load_warning(const SceneFile& file, const Space& space, const VariationalInequality& problem) {
-  const TriangleMesh& mesh = space.mesh();
-  const Field& f = file.scene.body().load;
-  double area = 0;
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == Region::body) area += mesh.area(t);
-
-  const Quadrature& rule = load_rule(space.element());
-  const Eigen::MatrixXd fit = quadratic_fit(rule);
-  Eigen::VectorXd at_rule(rule.weights.size()), quadratic(fit.rows());
-  constexpr int points = 1 << 18;
-  Eigen::Vector3d sampled = Eigen::Vector3d::Zero(), size = sampled;  // integrals of f (1, x, y), |f| (1, |x|, |y|)
-  double k = 0, due = 0;  // each sample stands for the same area; a triangle may have many, or none
-  // integrals of |f less what the rule's points say of it| and of |f|, over as many of the sampled triangles as leave
-  // the values of f at the rule's points no more than the samples
-  double unseen = 0, fitted = 0, at_points = 0;
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh.region[t] != Region::body) continue;
-    due += points * mesh.area(t) / area;
-    const int here = static_cast<int>(due);
-    due -= here;
-    if (here == 0) continue;
-    const bool fits = at_points <= k;
-    if (fits) {
-      for (Eigen::Index q = 0; q < at_rule.size(); ++q) {
-        const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-        at_rule(q) = f(x(0), x(1));
-      }
-      at_points += at_rule.size();
-      quadratic.noalias() = fit * at_rule;
-    }
-    for (int i = 0; i < here; ++i) {
-      const Eigen::Vector3d lambda = spread_point(++k);
-      const Eigen::Vector2d x = point_in(mesh, t, lambda);
-      const double part = f(x(0), x(1)) * area / points;
-      if (fits) {
-        unseen += std::abs(part - quadratics(lambda).dot(quadratic) * area / points);
-        fitted += std::abs(part);
-      }
-      sampled += part * Eigen::Vector3d(1, x(0), x(1));
-      size += std::abs(part) * Eigen::Vector3d(1, std::abs(x(0)), std::abs(x(1)));
-    }
-  }
-  // the basis sums to 1, and with the places of the unknowns as weights to x and to y
-  const Points& at = space.dof_coordinates();
-  const bool alone = beyond_the_paper(file).empty();  // else edges and the layer load, too
-  const Eigen::VectorXd load = alone ? problem.load : load_vector(space, f);
-  const Eigen::Vector3d seen(load.sum(), load.dot(at.col(0)), load.dot(at.col(1)));
+  const LoadSamples samples(space, file.scene.body().load);
+  const Eigen::Vector3d seen = integrals_by_quadrature(file, space, problem);
+  const Eigen::Vector3d& sampled = samples.integrals();
+  const Eigen::Vector3d& size = samples.sizes();
   for (int i = 0; i < 3; ++i)
     if (std::abs(seen(i) - sampled(i)) > significance * std::max(size(i), std::abs(seen(i))))
       return fmt::format(
           "load.f: the quadrature of this mesh misses the load: the integral of {} is {:.3g} by the quadrature, {:.3g} "
           "by {:.0f} points (that of its absolute value {:.3g}): a finer mesh is needed where the load lives",
-          std::array{"f", "x f", "y f"}[i], seen(i), sampled(i), k, size(i));
-  // integrals may agree by chance: what lives between the points of the rule, triangle by triangle, is seen by none
-  if (unseen > 0.25 * fitted)
+          std::array{"f", "x f", "y f"}[i], seen(i), sampled(i), samples.count(), size(i));
+  // integrals may agree by chance: what lives between the points of the rule, triangle by triangle,
+  // is seen by none
+  if (samples.is_unseen())
     return fmt::format(
         "load.f: the quadrature of this mesh misses the load: {:.0f} % of the integral of |f| lie between its points, "
         "by {:.0f} samples: a finer mesh is needed where the load lives",
-        100 * unseen / fitted, k);
+        samples.unseen_percent(), samples.count());
   return "";
 }
 
