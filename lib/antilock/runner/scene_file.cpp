@@ -236,36 +236,58 @@ UnilateralContact read_contact(const Section& section) {
   return contact;
 }
 
-Layer read_layer(const Section& section) {
-  section.only_its_keys();
-  const std::string model = section.one_of("model");
-  const bool numbers = section.has("thickness") || section.has("stiffness");
+/// The numbers that a model of the layer accepts as its thickness epsilon.
+struct ThicknessRange {
+  double least;
+  double most;
+  std::string accepted;  ///< in words
+};
+
+/// `key`: epsilon, or thickness beside a stiffness.
+ThicknessRange thickness_range(const std::string& model, const std::string& key) {
+  if (model == "ventcel") return {0, 0, "exactly 0 (the model is the limit epsilon = 0)"};
+  if (model == "thin") return {1e-3, 1, "1e-3 <= epsilon <= 1 (below, use the scaled model)"};
+  // a thickness is not 0: the stiffness times it would be
+  const double least = key == "thickness" ? 1e-300 : 0;
+  return {least, 1, fmt::format("0 < {0} <= 1, or exactly 0 (the rigid limit)", key)};
+}
+
+/// The keys that stand in the section must go with its model, and with each other.
+void check_layer_keys(const Section& section, const std::string& model, bool has_thickness) {
   for (const char* key : {"thickness", "stiffness", "load"})
     if (section.has(key) && model != "scaled")
       section.refuse(key, fmt::format("does not go with model = \"{}\"; accepted: with \"scaled\" only", model));
-  if (numbers && section.has("epsilon"))
+  if (has_thickness && section.has("epsilon"))
     section.refuse("epsilon", "stands beside thickness or stiffness; accepted: epsilon, or the other two");
-  const std::string key = numbers ? "thickness" : "epsilon";
-  const std::string accepted = model == "scaled"    ? fmt::format("0 < {0} <= 1, or exactly 0 (the rigid limit)", key)
-                               : model == "ventcel" ? "exactly 0 (the model is the limit epsilon = 0)"
-                                                    : "1e-3 <= epsilon <= 1 (below, use the scaled model)";
-  const double epsilon = section.number(key, accepted);
-  const double least = model == "thin" ? 1e-3 : numbers ? 1e-300 : 0, most = model == "ventcel" ? 0 : 1;
-  if (!(epsilon >= least && epsilon <= most))
+}
+
+/// s = stiffness * thickness of the scaled layer.
+double read_scaled_stiffness(const Section& section, double thickness) {
+  const double stiffness = section.number("stiffness");
+  if (!(stiffness > 0)) section.refuse("stiffness", fmt::format("{}; accepted: above 0", stiffness));
+  const double s = stiffness * thickness;
+  if (!(s > 0))
+    section.refuse("stiffness", fmt::format("{} times the thickness {} is 0 in double precision; accepted: a product "
+                                            "above 0",
+                                            stiffness, thickness));
+  return s;
+}
+
+Layer read_layer(const Section& section) {
+  section.only_its_keys();
+  const std::string model = section.one_of("model");
+  const bool has_thickness = section.has("thickness") || section.has("stiffness");
+  check_layer_keys(section, model, has_thickness);
+  const std::string key = has_thickness ? "thickness" : "epsilon";
+  const ThicknessRange range = thickness_range(model, key);
+  const double epsilon = section.number(key, range.accepted);
+  if (!(epsilon >= range.least && epsilon <= range.most))
     section.refuse(key, fmt::format("{} is out of range for model = \"{}\"; accepted: {}", epsilon, model,
-                                    numbers ? "0 < thickness <= 1" : accepted));
+                                    has_thickness ? "0 < thickness <= 1" : range.accepted));
   if (model == "ventcel") return VentcelLayer{};
   if (model == "thin") return ThinLayer{epsilon};
   StiffLayer layer{epsilon};
-  if (numbers) {
-    const double stiffness = section.number("stiffness");
-    if (!(stiffness > 0)) section.refuse("stiffness", fmt::format("{}; accepted: above 0", stiffness));
-    layer.s = stiffness * epsilon;
-    if (!(layer.s > 0))
-      section.refuse("stiffness", fmt::format("{} times the thickness {} is 0 in double precision; accepted: a product "
-                                              "above 0",
-                                              stiffness, epsilon));
-  }
+  if (has_thickness) layer.s = read_scaled_stiffness(section, epsilon);
   if (section.has("load")) layer.load = field(section, "load");
   return layer;
 }
