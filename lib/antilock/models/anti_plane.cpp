@@ -180,6 +180,61 @@ void add_displacements(VariationalInequality& problem, const Scene& scene, const
   });
 }
 
+/// The range of the stiffnesses of all parts of a scene. Throws Error where they are too far apart.
+StiffnessRange checked_range(const Scene& scene, const TriangleMesh& mesh, const std::vector<Stiffness>& of_triangles,
+                             const std::vector<WeightedFactoredForm>& springs) {
+  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
+  StiffnessRange range(stiff != nullptr ? stiff->s : 1);
+  for (const auto& [x, y] : of_triangles) {
+    range.note(x);
+    range.note(y);
+  }
+  if (stiff != nullptr) range.note(stiff->s);
+  if (std::holds_alternative<VentcelLayer>(scene.layer())) range.note(1);
+  if (!springs.empty() && springs_alone_hold_a_component(mesh))
+    for (const WeightedFactoredForm& rows : springs) range.note(rows.form.m.dot(rows.stiffness));
+  range.check("stiffness");
+  return range;
+}
+
+/// Takes the stiffnesses out of `in_a1` that are too large for it, and returns them. Empty if there is
+/// none.
+std::vector<Stiffness> take_rows(std::vector<Stiffness>& in_a1, const StiffnessRange& range) {
+  std::vector<Stiffness> in_rows;
+  for (std::size_t t = 0; t < in_a1.size(); ++t) {
+    if (range.fits_in_a1(std::max(in_a1[t].x, in_a1[t].y))) continue;
+    in_rows.resize(in_a1.size(), {0, 0});
+    std::swap(in_a1[t], in_rows[t]);
+  }
+  return in_rows;
+}
+
+/// The rows of B of the scaled layer, with its compliance.
+void add_layer(VariationalInequality& problem, const StiffLayer& layer, const Space& space,
+               const StiffnessRange& range) {
+  FactoredForm strain = layer_strain(space);  // a_y^-, factored
+  problem.b.swap(strain.b);
+  problem.m = layer.s * strain.m;
+  if (space.mesh().curved()) follow_normals(problem, layer, space, range);
+  problem.compliance = class_parameter(layer);
+}
+
+/// The bounds on Gamma_C.
+void add_contact(VariationalInequality& problem, const UnilateralContact& contact, const Space& space) {
+  problem.contact = space.contact_dofs();
+  const Eigen::VectorXd x = space.dof_coordinates().col(0)(problem.contact);
+  problem.lower = -x.unaryExpr(contact.gap);
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    if (!std::isfinite(problem.lower(i))) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
+  if (!contact.upper_obstacle) return;
+  problem.upper = x.unaryExpr(contact.upper_obstacle);
+  // where two formulas say the same, the round-off of one must not put the ceiling below the obstacle
+  const Eigen::ArrayXd lower = problem.lower.array();
+  const Eigen::ArrayXd round_off = 1e-12 * lower.abs().max(1);
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    if (problem.upper(i) >= lower(i) - round_off(i)) problem.upper(i) = std::max(problem.upper(i), lower(i));
+}
+
 }  // namespace
 
 double class_parameter(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
@@ -212,44 +267,28 @@ Eigen::VectorXd load_of(const Scene& scene, const Space& space) {
 }
 
 VariationalInequality assemble(const Scene& scene, const Space& space) {
-  check_fit(scene, space.mesh());
+  const TriangleMesh& mesh = space.mesh();
+  check_fit(scene, mesh);
   static_assert(std::variant_size_v<Layer> == 4, "what a new layer adds to A1 and to B stands here");
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
   const auto* thin = std::get_if<ThinLayer>(&scene.layer());
-  const bool curved = space.mesh().curved();
   Stiffness layer{0, 0};
-  if (stiff != nullptr) layer.x = curved ? 0 : stiff->s;       // a_x^- of (23)
-  if (thin != nullptr) layer.x = layer.y = 1 / thin->epsilon;  // mu / epsilon of (22)
-  std::vector<Stiffness> in_a1 = stiffness_of_triangles(scene, space.mesh(), layer), in_rows;
+  if (stiff != nullptr && !mesh.curved()) layer.x = stiff->s;  // a_x^- of (23)
+  if (thin != nullptr) {                                       // mu / epsilon of (22)
+    layer.x = 1 / thin->epsilon;
+    layer.y = 1 / thin->epsilon;
+  }
+  std::vector<Stiffness> in_a1 = stiffness_of_triangles(scene, mesh, layer);
   const std::vector<WeightedFactoredForm> springs = springs_of(scene, space);
-  StiffnessRange range(stiff != nullptr ? stiff->s : 1);
-  for (const auto& [x, y] : in_a1) {
-    range.note(x);
-    range.note(y);
-  }
-  if (stiff != nullptr) range.note(stiff->s);
-  if (std::holds_alternative<VentcelLayer>(scene.layer())) range.note(1);
-  if (!springs.empty() && springs_alone_hold_a_component(space.mesh()))
-    for (const WeightedFactoredForm& rows : springs) range.note(rows.form.m.dot(rows.stiffness));
-  range.check("stiffness");
-  for (std::size_t t = 0; t < in_a1.size(); ++t) {
-    if (range.fits_in_a1(std::max(in_a1[t].x, in_a1[t].y))) continue;
-    in_rows.resize(in_a1.size(), {0, 0});
-    std::swap(in_a1[t], in_rows[t]);
-  }
+  const StiffnessRange range = checked_range(scene, mesh, in_a1, springs);
+  const std::vector<Stiffness> in_rows = take_rows(in_a1, range);
 
   VariationalInequality problem;
   problem.b.resize(0, space.size());
   gradient_form(space, in_a1).swap(problem.a1);  // an assignment would copy the matrix
   if (std::holds_alternative<VentcelLayer>(scene.layer()))
-    problem.a1 += ventcel_form(space, dirichlet_vertex_values(scene, space.mesh()));
-  if (stiff != nullptr) {
-    FactoredForm strain = layer_strain(space);  // a_y^-, factored
-    problem.b.swap(strain.b);
-    problem.m = stiff->s * strain.m;
-    if (curved) follow_normals(problem, *stiff, space, range);
-    problem.compliance = class_parameter(*stiff);
-  }
+    problem.a1 += ventcel_form(space, dirichlet_vertex_values(scene, mesh));
+  if (stiff != nullptr) add_layer(problem, *stiff, space, range);
   if (!in_rows.empty()) range.append(problem, gradient_rows(space, in_rows));
   add_springs(problem, springs, range);
 
@@ -257,21 +296,7 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   add_displacements(problem, scene, space);
   problem.load = load_of(scene, space);
-  if (scene.contact()) {
-    const auto& [gap, zero_at, upper_obstacle] = *scene.contact();
-    problem.contact = space.contact_dofs();
-    const Eigen::VectorXd x = space.dof_coordinates().col(0)(problem.contact);
-    problem.lower = -x.unaryExpr(gap);
-    for (Eigen::Index i = 0; i < x.size(); ++i)
-      if (!std::isfinite(problem.lower(i))) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
-    if (upper_obstacle) {
-      problem.upper = x.unaryExpr(upper_obstacle);
-      // where two formulas say the same, the round-off of one must not put the ceiling below the obstacle
-      const Eigen::ArrayXd lower = problem.lower.array(), round_off = 1e-12 * lower.abs().max(1);
-      for (Eigen::Index i = 0; i < x.size(); ++i)
-        if (problem.upper(i) >= lower(i) - round_off(i)) problem.upper(i) = std::max(problem.upper(i), lower(i));
-    }
-  }
+  if (scene.contact()) add_contact(problem, *scene.contact(), space);
   return problem;
 }
 
