@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 
 #include "antilock/analysis/locking_report.hpp"
 #include "antilock/certificate/companion.hpp"
@@ -248,6 +249,200 @@ Places places_of(const Space& space, const Eigen::VectorXd& error) {
   return places;
 }
 
+/// The arguments of the command line.
+struct Request {
+  std::filesystem::path scene;
+  std::filesystem::path mesh;
+  std::filesystem::path answer;  ///< x,y,u
+  std::filesystem::path out;
+  std::filesystem::path where;
+  double accuracy = 1e-2;
+  std::string row;  ///< the name of the code, for a row of the table
+};
+
+void add_arguments(CLI::App& line, Request& request) {
+  line.add_option("SCENE", request.scene, "the scene file, in TOML (run_scene --help); its [mesh] is not used")
+      ->required();
+  line.add_option("MESH", request.mesh, "MSH 2.2 or 4.1, with the groups body, layer, clamped, contact")->required();
+  line.add_option("U", request.answer,
+                  "CSV with the header x,y,u: one row per vertex (P1) or per edge midpoint (CR), in any order")
+      ->required();
+  line.add_option("--accuracy", request.accuracy,
+                  "to which the energy's lower bound is proved, relative, in the energy norm")
+      ->check(CLI::Range(1e-4, 0.5));
+  line.add_option("--json", request.out, "the same numbers as a JSON file");
+  line.add_option(
+      "--where", request.where,
+      "a CSV file: triangle,region,x,y,error, one row per triangle of MESH with its centroid and its error in the "
+      "energy norm");
+  line.add_option("--row", request.row, "NAME of the code: prints a row for the table of codes as well");
+  line.footer(
+      "Where the error lies is measured against the exact solution where that is known. Elsewhere it is an estimate: "
+      "Antilock's own answer to --accuracy stands in for the exact solution, and its own error, which is proved, is "
+      "printed.");
+}
+
+/// The discrete function whose values the file has.
+struct GivenSolution {
+  const Scene& scene;
+  const Space& space;
+  const VariationalInequality& problem;
+  const Solution& v;
+  std::string file;  ///< that v was read from
+};
+
+/// What is printed and written. It is printed when all is known: a refusal prints nothing else.
+struct EstimateReport {
+  nlohmann::json found;
+  std::string text;
+
+  template <class... Arguments>
+  void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(text), format, std::forward<Arguments>(arguments)...);
+  }
+};
+
+/// The errors against the exact solution. Returns those by triangle.
+Eigen::VectorXd add_exact_errors(EstimateReport& report, const GivenSolution& given, const ExactSolution& exact) {
+  const ExactTable table(exact);
+  const Errors e = measure_errors(given.space, given.v, exact.epsilon(), reference(table));
+  report.found["errors"] = {
+      {"max_at_unknowns", e.max_at_unknowns}, {"max", e.max}, {"l2", e.l2}, {"h1", e.h1}, {"energy", e.energy}};
+  report.print(
+      "  errors (exact): {:.4g} at the unknowns, {:.4g} in the maximum norm, {:.4g} L2, {:.4g} H1, {:.4g} energy "
+      "norm\n",
+      e.max_at_unknowns, e.max, e.l2, e.h1, e.energy);
+  if (const auto most = a_priori_bound(given.space, given.scene.body().load)) {
+    report.found["a_priori"] = *most;
+    report.print("  on this mesh the discrete solution is within {:.4g} (proved, order h){}\n", *most,
+                 e.energy > *most ? ": this answer is not it" : "");
+  }
+  return e.by_triangle;
+}
+
+void add_bound(EstimateReport& report, const GivenSolution& given, const Bound& bound) {
+  if (std::isfinite(bound.value)) {
+    report.found["bound"] = bound.value;
+    report.print("  proved: at most {:.4g} ({})\n", bound.value, bound.of);
+    return;
+  }
+  const bool rigid = given.problem.compliance == 0 && given.problem.b.rows() > 0;
+  if (!rigid)
+    throw Error(fmt::format("{}: no bound can be given: the error's is {}; accepted: values of the size of an answer",
+                            given.file, bound.value));
+  report.found["bound"] = nullptr;  // 1e-12 in h^-1: what 17 digits leave
+  report.print(
+      "  proved: nothing; at epsilon = 0 a strain in the layer has no finite energy, and that of this "
+      "answer is not 0: digits are missing, or it is not of this mesh's space\n");
+}
+
+/// Where the error lies. `error` (by triangle) is exact, or against a solution whose own error is at
+/// most `within`.
+void add_places(EstimateReport& report, const Space& space, const Eigen::VectorXd& error, bool exact, double within) {
+  const TriangleMesh& mesh = space.mesh();
+  const Places places = places_of(space, error);
+  if (places.worst.empty()) return;
+  std::string list;
+  nlohmann::json worst = nlohmann::json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, places.worst.size()); ++i) {
+    const int t = places.worst[i];
+    const Eigen::Vector2d x = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3));
+    fmt::format_to(std::back_inserter(list), "{}({:.3g}, {:.3g})", i > 0 ? ", " : "", x(0), x(1));
+    worst.push_back({{"triangle", t}, {"x", x(0)}, {"y", x(1)}, {"error", error(t)}});
+  }
+  report.found["where"] = {{"exact", exact},
+                           {"within", exact ? 0 : within},
+                           {"energy", error.norm()},
+                           {"layer", places.layer},
+                           {"contact", places.contact},
+                           {"half_lies_in", places.worst.size()},
+                           {"triangles", mesh.triangle_count()},
+                           {"worst", worst}};
+  std::string source;
+  if (!exact)
+    source = fmt::format(" (an estimate: {:.4g} from Antilock's own answer, whose error is at most {:.4g})",
+                         error.norm(), within);
+  report.print(
+      "  where{}: {:.3g} % of the squared error in the body, {:.3g} % in the layer; {:.3g} % in triangles "
+      "at the contact boundary; half of it in {} of {} triangles, the worst around {}\n",
+      source, 100 * (1 - places.layer), 100 * places.layer, 100 * places.contact, places.worst.size(),
+      mesh.triangle_count(), list);
+}
+
+/// The share of the largest displacement on the contact boundary.
+void add_kept(EstimateReport& report, const GivenSolution& given, const Result& certified) {
+  if (!(given.scene.layer_depth() > 0) || !given.scene.contact()) return;
+  const double whole = layer_displacement(certified.space, certified.solution.u);
+  const double kept = whole > 0 ? layer_displacement(given.space, given.v.u) / whole : 1;
+  report.found["kept"] = kept;
+  report.print("  kept of the largest displacement on the contact boundary: {:.4g} %\n", 100 * kept);
+}
+
+/// Whether it locks. Only of the discrete solution, `own`, is that known. The distance to it is
+/// measured by the soft part of the norm, since the digits of a file are cut off.
+void add_diagnosis(EstimateReport& report, const GivenSolution& given, const Solution& own) {
+  constexpr double alike = 1e-2;  // 1e-4 of the energy, beside the twentieth of its motion that is told of
+  const auto norm = [&](const Eigen::VectorXd& w) { return std::sqrt(w.dot(given.problem.a1 * w)); };
+  const double apart = norm(given.v.u - own.u);
+  const double size = norm(own.u);
+  if (apart > alike * size) {
+    report.found["diagnosis"] = nullptr;
+    report.print(
+        "  layer: of locking nothing is said: this is not the discrete solution on its mesh, but {:.2g} of "
+        "its norm away\n",
+        size > 0 ? apart / size : apart);
+    return;
+  }
+  const auto layer = report_locking(given.scene, {given.space, given.problem, given.v});
+  if (!layer) return;
+  report.found["diagnosis"] = layer->text();
+  report.print("  layer: {}\n", layer->text());
+}
+
+/// A row for the table of codes.
+void add_row(EstimateReport& report, const std::string& name, const std::string& element, double bound) {
+  std::string error = "not known";
+  if (report.found.contains("errors"))
+    error = fmt::format("{:.3g}", report.found["errors"]["max_at_unknowns"].get<double>());
+  std::string kept;
+  if (report.found.contains("kept")) kept = fmt::format("{:.1f} %", 100 * report.found["kept"].get<double>());
+  report.print("| {} | {} | {} | {:.3g} | {} |\n", name, element, error, bound, kept);
+}
+
+void write_places(std::ostream& stream, const TriangleMesh& mesh, const Eigen::VectorXd& error) {
+  stream << "triangle,region,x,y,error\n";
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::Vector2d x = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3));
+    const char* const region = mesh.region[t] == Region::layer ? "layer" : "body";
+    stream << t << ',' << region << ',' << x(0) << ',' << x(1) << ',' << error(t) << '\n';
+  }
+}
+
+/// Solves the scene on the mesh and to an accuracy, and compares. Returns the error by triangle.
+Eigen::VectorXd add_comparison(EstimateReport& report, const GivenSolution& given, const Request& request) {
+  const TriangleMesh& mesh = given.space.mesh();
+  const std::optional<ExactSolution> exact = is_unit_square(mesh) ? exact_solution_of(given.scene) : std::nullopt;
+  Eigen::VectorXd error;
+  if (exact) error = add_exact_errors(report, given, *exact);
+  const Solution own = active_set(given.problem);
+  const CertifiedSolution certified = solve_to(given.scene, mesh, AccuracyGoal{request.accuracy});
+  const Bound bound =
+      given.space.element().conforming()
+          ? conforming_bound(given.scene, given.space, given.problem, given.v.u, certified.certificate.energy_lower)
+          : nonconforming_bound(given.scene, given.space, given.problem, given.v.u, own);
+  add_bound(report, given, bound);
+  if (!exact) {
+    const PointValues at(certified.result.space);
+    const double epsilon = given.scene.epsilon().value_or(1);
+    error = measure_errors(given.space, given.v, epsilon, reference(certified.result, at)).by_triangle;
+  }
+  add_places(report, given.space, error, exact.has_value(), certified.certificate.gradient);
+  add_kept(report, given, certified.result);
+  add_diagnosis(report, given, own);
+  if (!request.row.empty()) add_row(report, request.row, given.space.element().name(), bound.value);
+  return error;
+}
+
 }  // namespace
 
 int estimate(int argc, char** argv) {
@@ -255,151 +450,37 @@ int estimate(int argc, char** argv) {
       "Another program's answer to a scene, on its own mesh: its errors, a proved bound, what it keeps of the "
       "layer's displacement, and whether it locks.",
       "antilock estimate");
-  std::filesystem::path scene, mesh_file, answer, out, where;
-  double accuracy = 1e-2;
-  std::string row;
-  line.add_option("SCENE", scene, "the scene file, in TOML (run_scene --help); its [mesh] is not used")->required();
-  line.add_option("MESH", mesh_file, "MSH 2.2 or 4.1, with the groups body, layer, clamped, contact")->required();
-  line.add_option("U", answer,
-                  "CSV with the header x,y,u: one row per vertex (P1) or per edge midpoint (CR), in any order")
-      ->required();
-  line.add_option("--accuracy", accuracy, "to which the energy's lower bound is proved, relative, in the energy norm")
-      ->check(CLI::Range(1e-4, 0.5));
-  line.add_option("--json", out, "the same numbers as a JSON file");
-  line.add_option(
-      "--where", where,
-      "a CSV file: triangle,region,x,y,error, one row per triangle of MESH with its centroid and its error in the "
-      "energy norm");
-  line.add_option("--row", row, "NAME of the code: prints a row for the table of codes as well");
-  line.footer(
-      "Where the error lies is measured against the exact solution where that is known. Elsewhere it is an estimate: "
-      "Antilock's own answer to --accuracy stands in for the exact solution, and its own error, which is proved, is "
-      "printed.");
+  Request request;
+  add_arguments(line, request);
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;
 
-  const SceneFile file = read_scene_file(scene);
-  for (const std::filesystem::path& written : {out, where}) check_not_an_input(written, {scene, mesh_file, answer});
+  const SceneFile file = read_scene_file(request.scene);
+  for (const std::filesystem::path& written : {request.out, request.where})
+    check_not_an_input(written, {request.scene, request.mesh, request.answer});
   require_paper_problem(file, argv[0]);
-  const TriangleMesh mesh = read_msh(mesh_file.string());
-  const Eigen::MatrixXd rows = read_csv(answer.string(), {"x", "y", "u"});
+  const TriangleMesh mesh = read_msh(request.mesh.string());
+  const std::string answer = request.answer.string();
+  const Eigen::MatrixXd rows = read_csv(answer, {"x", "y", "u"});
   ReadAnswer read;
-  match(read, mesh, rows, answer.string(), mesh_file.string());
-  const std::optional<Space>& space = read.space;
-  const VariationalInequality problem = assemble(file.scene, *space);
+  match(read, mesh, rows, answer, request.mesh.string());
+  const Space& space = *read.space;
+  const VariationalInequality problem = assemble(file.scene, space);
   Solution v;
   v.u = read.u;
-  v.p = problem.compliance > 0 ? Eigen::VectorXd(problem.b * v.u / problem.compliance)
-                               : Eigen::VectorXd::Zero(problem.b.rows());
+  v.p = Eigen::VectorXd::Zero(problem.b.rows());
+  if (problem.compliance > 0) v.p = problem.b * v.u / problem.compliance;
 
-  const std::string element = space->element().name();
-  nlohmann::json found = {{"element", element}, {"unknowns", space->free_count()}, {"h", mesh.diameter()}};
-  std::string text = fmt::format("{}: {}, {} unknowns\n", answer.string(), element, space->free_count());
-  text += read.digits;
-  const auto say = std::back_inserter(text);  // printed when all is known: a refusal prints nothing else
-  const std::optional<ExactSolution> exact = is_unit_square(mesh) ? exact_solution_of(file.scene) : std::nullopt;
-  Eigen::VectorXd error;  // by triangle
-  if (exact) {
-    const ExactTable table(*exact);
-    const Errors e = measure_errors(*space, v, exact->epsilon(), reference(table));
-    error = e.by_triangle;
-    found["errors"] = {
-        {"max_at_unknowns", e.max_at_unknowns}, {"max", e.max}, {"l2", e.l2}, {"h1", e.h1}, {"energy", e.energy}};
-    fmt::format_to(
-        say,
-        "  errors (exact): {:.4g} at the unknowns, {:.4g} in the maximum norm, {:.4g} L2, {:.4g} H1, {:.4g} energy "
-        "norm\n",
-        e.max_at_unknowns, e.max, e.l2, e.h1, e.energy);
-    if (const auto most = a_priori_bound(*space, file.scene.body().load)) {
-      found["a_priori"] = *most;
-      fmt::format_to(say, "  on this mesh the discrete solution is within {:.4g} (proved, order h){}\n", *most,
-                     e.energy > *most ? ": this answer is not it" : "");
-    }
-  }
-  const Solution own = active_set(problem);
-  const CertifiedSolution certified = solve_to(file.scene, mesh, AccuracyGoal{accuracy});
-  const Bound bound = space->element().conforming()
-                          ? conforming_bound(file.scene, *space, problem, v.u, certified.certificate.energy_lower)
-                          : nonconforming_bound(file.scene, *space, problem, v.u, own);
-  if (std::isfinite(bound.value)) {
-    found["bound"] = bound.value;
-    fmt::format_to(say, "  proved: at most {:.4g} ({})\n", bound.value, bound.of);
-  } else if (problem.compliance == 0 && problem.b.rows() > 0) {  // 1e-12 in h^-1: what 17 digits leave
-    found["bound"] = nullptr;
-    fmt::format_to(say,
-                   "  proved: nothing; at epsilon = 0 a strain in the layer has no finite energy, and that of this "
-                   "answer is not 0: digits are missing, or it is not of this mesh's space\n");
-  } else {
-    throw Error(fmt::format("{}: no bound can be given: the error's is {}; accepted: values of the size of an answer",
-                            answer.string(), bound.value));
-  }
-  if (!exact) {
-    const PointValues at(certified.result.space);
-    error = measure_errors(*space, v, file.scene.epsilon().value_or(1), reference(certified.result, at)).by_triangle;
-  }
-  const Places places = places_of(*space, error);
-  std::string list;
-  nlohmann::json worst = nlohmann::json::array();
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, places.worst.size()); ++i) {
-    const Eigen::Vector2d x = point_in(mesh, places.worst[i], Eigen::Vector3d::Constant(1.0 / 3));
-    fmt::format_to(std::back_inserter(list), "{}({:.3g}, {:.3g})", i > 0 ? ", " : "", x(0), x(1));
-    worst.push_back({{"triangle", places.worst[i]}, {"x", x(0)}, {"y", x(1)}, {"error", error(places.worst[i])}});
-  }
-  if (!places.worst.empty()) {
-    found["where"] = {{"exact", exact.has_value()},
-                      {"within", exact ? 0 : certified.certificate.gradient},
-                      {"energy", error.norm()},
-                      {"layer", places.layer},
-                      {"contact", places.contact},
-                      {"half_lies_in", places.worst.size()},
-                      {"triangles", mesh.triangle_count()},
-                      {"worst", worst}};
-    fmt::format_to(say,
-                   "  where{}: {:.3g} % of the squared error in the body, {:.3g} % in the layer; {:.3g} % in triangles "
-                   "at the contact boundary; half of it in {} of {} triangles, the worst around {}\n",
-                   exact
-                       ? ""
-                       : fmt::format(" (an estimate: {:.4g} from Antilock's own answer, whose error is at most {:.4g})",
-                                     error.norm(), certified.certificate.gradient),
-                   100 * (1 - places.layer), 100 * places.layer, 100 * places.contact, places.worst.size(),
-                   mesh.triangle_count(), list);
-  }
-  if (file.scene.layer_depth() > 0 && file.scene.contact()) {
-    const double whole = layer_displacement(certified.result.space, certified.result.solution.u);
-    const double kept = whole > 0 ? layer_displacement(*space, v.u) / whole : 1;
-    found["kept"] = kept;
-    fmt::format_to(say, "  kept of the largest displacement on the contact boundary: {:.4g} %\n", 100 * kept);
-  }
-  // of locking only the discrete solution tells; the soft part of the norm, since the digits of a file are cut off
-  const auto soft = [&](const Eigen::VectorXd& w) { return std::sqrt(w.dot(problem.a1 * w)); };
-  const double apart = soft(v.u - own.u), size = soft(own.u);
-  constexpr double alike = 1e-2;  // 1e-4 of the energy, beside the twentieth of its motion that is told of
-  if (apart > alike * size) {
-    found["diagnosis"] = nullptr;
-    fmt::format_to(say,
-                   "  layer: of locking nothing is said: this is not the discrete solution on its mesh, but {:.2g} of "
-                   "its norm away\n",
-                   size > 0 ? apart / size : apart);
-  } else if (const auto layer = report_locking(file.scene, {*space, problem, v})) {
-    found["diagnosis"] = layer->text();
-    fmt::format_to(say, "  layer: {}\n", layer->text());
-  }
-  if (!row.empty())
-    fmt::format_to(say, "| {} | {} | {} | {:.3g} | {} |\n", row, element,
-                   found.contains("errors") ? fmt::format("{:.3g}", found["errors"]["max_at_unknowns"].get<double>())
-                                            : "not known",
-                   bound.value,
-                   found.contains("kept") ? fmt::format("{:.1f} %", 100 * found["kept"].get<double>()) : "");
-  if (!where.empty())
-    write_file(where, [&](std::ostream& stream) {
-      stream << "triangle,region,x,y,error\n";
-      for (int t = 0; t < mesh.triangle_count(); ++t) {
-        const Eigen::Vector2d x = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3));
-        stream << t << (mesh.region[t] == Region::layer ? ",layer," : ",body,") << x(0) << ',' << x(1) << ','
-               << error(t) << '\n';
-      }
-    });
-  if (!out.empty()) write_file(out, [&](std::ostream& stream) { stream << found.dump(2) << '\n'; });
-  fmt::print("{}", text);
+  EstimateReport report;
+  const std::string element = space.element().name();
+  report.found = {{"element", element}, {"unknowns", space.free_count()}, {"h", mesh.diameter()}};
+  report.print("{}: {}, {} unknowns\n", answer, element, space.free_count());
+  report.text += read.digits;
+  const Eigen::VectorXd error = add_comparison(report, {file.scene, space, problem, v, answer}, request);
+  if (!request.where.empty())
+    write_file(request.where, [&](std::ostream& stream) { write_places(stream, mesh, error); });
+  if (!request.out.empty())
+    write_file(request.out, [&](std::ostream& stream) { stream << report.found.dump(2) << '\n'; });
+  fmt::print("{}", report.text);
   return 0;
 }
 
