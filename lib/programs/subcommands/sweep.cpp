@@ -56,6 +56,126 @@ struct OnMesh {
   std::vector<PointValues::Location> places;
 };
 
+/// The arguments of the command line.
+struct SweepRequest {
+  std::filesystem::path scene;
+  std::filesystem::path out;
+  std::string epsilons = "1:1e-8:9";
+  std::string cells;
+  std::string at;
+};
+
+void add_sweep_arguments(CLI::App& line, SweepRequest& request) {
+  line.add_option("SCENE", request.scene, "the scene file, in TOML, with a scaled layer (run_scene --help)")
+      ->required();
+  line.add_option("--epsilon", request.epsilons, "FROM:TO:COUNT, spaced by one factor, or a list such as 1,1e-2,0");
+  line.add_option("--cells", request.cells,
+                  "a list of cells per unit side, such as 8,16,32; default: the mesh of the scene");
+  line.add_option("--at", request.at, "X,Y, or X,Y,X,Y,...: points whose u is listed");
+  line.add_option("--out", request.out, "the CSV file; default: none, the table is printed alone");
+  line.footer(
+      "The penalty delta of a mesh is chosen from its matrices. All epsilon with epsilon^2 <= delta share one "
+      "factorisation, and are corrected; each larger epsilon has its own, since corrections with a smaller delta need "
+      "not converge there, and with a larger one are many. The column factorisations counts them.");
+}
+
+/// x,y,x,y,...: the points whose u is listed.
+std::vector<double> points_to_list(const std::string& text) {
+  std::vector<double> at;
+  if (!text.empty()) at = numbers("--at", text, ',');
+  if (at.size() % 2 != 0)
+    throw Error("antilock sweep: --at: \"" + text + "\"; accepted: X,Y, or X,Y,X,Y for more points");
+  return at;
+}
+
+/// The numbers of cells per unit side.
+std::vector<double> cells_to_solve(const std::string& text, const MeshRequest& mesh) {
+  if (text.empty()) return {double(mesh.cells)};
+  return numbers("--cells", text, ',');
+}
+
+void check_cells(double n, const std::string& text, const MeshRequest& mesh) {
+  if (text.empty()) return;
+  if (mesh.from_file() || n != std::floor(n) || n < 1 || n > 512)
+    throw Error("antilock sweep: --cells: \"" + text +
+                "\"; accepted: whole numbers from 1 to 512, for a scene whose mesh is made");
+}
+
+/// The mesh of a scene file, with the points. Throws where a point is outside, before anything is
+/// solved.
+OnMesh on_mesh(const SceneFile& file, const std::vector<double>& at) {
+  OnMesh on{file.mesh.cells, Space(make_mesh(file), element(file.method.element)), {}};
+  if (on.space.free_count() == 0)
+    throw Error(
+        fmt::format("{}: mesh: with {} cells every unknown is clamped, none is left to solve for; accepted: a "
+                    "finer mesh",
+                    file.name, on.cells));
+  const PointValues values(on.space);
+  for (std::size_t i = 0; i < at.size(); i += 2) {
+    const auto place = values.locate({at[i], at[i + 1]});
+    if (!place)
+      throw Error(
+          fmt::format("antilock sweep: --at: ({}, {}) is outside the mesh; accepted: points of it", at[i], at[i + 1]));
+    on.places.push_back(*place);
+  }
+  return on;
+}
+
+/// The exact solutions of the scenes and their tables: of all of them, or of none.
+struct ExactSolutions {
+  std::vector<ExactSolution> solutions;
+  std::vector<ExactTable> tables;
+
+  bool known() const { return !solutions.empty(); }
+};
+
+ExactSolutions exact_solutions_of(const std::vector<Scene>& scenes) {
+  ExactSolutions exact;
+  for (const Scene& scene : scenes) {
+    std::optional<ExactSolution> solution = exact_solution_of(scene);
+    if (!solution) break;  // it is the load or the gap: known of every epsilon or of none
+    exact.tables.emplace_back(*solution);
+    exact.solutions.push_back(std::move(*solution));
+  }
+  return exact;
+}
+
+std::vector<std::string> sweep_columns(std::size_t points, bool known) {
+  std::vector<std::string> columns{"cells", "epsilon", "unknowns"};
+  for (std::size_t i = 1; i <= points; ++i) columns.push_back(points == 1 ? "u_at" : fmt::format("u_at_{}", i));
+  columns.emplace_back("ridge");
+  if (known) columns.insert(columns.end(), {"kept", "error_max", "error_energy"});
+  columns.insert(columns.end(), {"factorisations", "corrections", "contact_steps", "seconds"});
+  return columns;
+}
+
+/// Solves on a mesh for each epsilon of the list, and adds a row each.
+void add_rows(Table& table, const Scene& scene, const OnMesh& on, const std::vector<double>& list,
+              const ExactSolutions& exact) {
+  SceneSweep questions(scene, on.space);
+  const PointValues values(on.space);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Stopwatch watch;
+    questions.set_epsilon(list[i]);
+    const Solution solution = questions.solve();
+    const double seconds = watch.seconds();
+    const double found = layer_displacement(on.space, solution.u);
+    std::vector<TableEntry> row{on.cells, list[i], on.space.free_count()};
+    for (const PointValues::Location& place : on.places) row.emplace_back(values.value(solution.u, place));
+    row.emplace_back(found);
+    if (exact.known()) {
+      const Errors errors = measure_errors(on.space, solution, list[i], reference(exact.tables[i]));
+      const double whole = exact.solutions[i].max_on_contact();
+      row.emplace_back(whole > 0 ? found / whole : 1);
+      row.emplace_back(errors.max_at_unknowns);
+      row.emplace_back(errors.energy);
+    }
+    const Counters& c = solution.counters;
+    row.insert(row.end(), {c.factorisations, c.corrections, c.contact_iterations, seconds});
+    table.add(row);
+  }
+}
+
 }  // namespace
 
 double layer_displacement(const Space& space, const Eigen::VectorXd& u) {
@@ -69,97 +189,35 @@ int sweep(int argc, char** argv) {
       "One scene, asked for many epsilons on many meshes: a table, printed and as CSV. The questions on "
       "one mesh share assembly and, where they can, the factorisation.",
       "antilock sweep");
-  std::filesystem::path scene, out;
-  std::string epsilon_text = "1:1e-8:9", cells_text, at_text;
-  line.add_option("SCENE", scene, "the scene file, in TOML, with a scaled layer (run_scene --help)")->required();
-  line.add_option("--epsilon", epsilon_text, "FROM:TO:COUNT, spaced by one factor, or a list such as 1,1e-2,0");
-  line.add_option("--cells", cells_text,
-                  "a list of cells per unit side, such as 8,16,32; default: the mesh of the scene");
-  line.add_option("--at", at_text, "X,Y, or X,Y,X,Y,...: points whose u is listed");
-  line.add_option("--out", out, "the CSV file; default: none, the table is printed alone");
-  line.footer(
-      "The penalty delta of a mesh is chosen from its matrices. All epsilon with epsilon^2 <= delta share one "
-      "factorisation, and are corrected; each larger epsilon has its own, since corrections with a smaller delta need "
-      "not converge there, and with a larger one are many. The column factorisations counts them.");
+  SweepRequest request;
+  add_sweep_arguments(line, request);
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;
 
-  SceneFile file = read_scene_file(scene);
-  check_not_an_input(out, {scene, file.mesh.file});
+  SceneFile file = read_scene_file(request.scene);
+  check_not_an_input(request.out, {request.scene, file.mesh.file});
   require_paper_problem(file, "sweep");
   if (!std::holds_alternative<StiffLayer>(file.scene.layer()))
     throw Error(file.name + ": layer.model: epsilon does not vary in this scene; accepted: a scaled layer");
   std::vector<Scene> scenes;  // an epsilon out of range is refused here
-  const std::vector<double> list = epsilons(epsilon_text);
+  const std::vector<double> list = epsilons(request.epsilons);
   scenes.reserve(list.size());
   for (const double e : list) scenes.emplace_back(file.scene.body(), StiffLayer{e}, file.scene.contact());
-  const std::vector<double> at = at_text.empty() ? std::vector<double>{} : numbers("--at", at_text, ',');
-  if (at.size() % 2 != 0)
-    throw Error("antilock sweep: --at: \"" + at_text + "\"; accepted: X,Y, or X,Y,X,Y for more points");
-  std::vector<OnMesh> meshes;  // a point outside is refused here, before anything is solved
-  for (const double n :
-       cells_text.empty() ? std::vector<double>{double(file.mesh.cells)} : numbers("--cells", cells_text, ',')) {
-    if (!cells_text.empty() && (file.mesh.from_file() || n != std::floor(n) || n < 1 || n > 512))
-      throw Error("antilock sweep: --cells: \"" + cells_text +
-                  "\"; accepted: whole numbers from 1 to 512, for a scene whose mesh is made");
+  const std::vector<double> at = points_to_list(request.at);
+  std::vector<OnMesh> meshes;
+  for (const double n : cells_to_solve(request.cells, file.mesh)) {
+    check_cells(n, request.cells, file.mesh);
     file.mesh.cells = static_cast<int>(n);
-    OnMesh& on = meshes.emplace_back(OnMesh{file.mesh.cells, Space(make_mesh(file), element(file.method.element)), {}});
-    if (on.space.free_count() == 0)
-      throw Error(
-          fmt::format("{}: mesh: with {} cells every unknown is clamped, none is left to solve for; accepted: a "
-                      "finer mesh",
-                      file.name, on.cells));
-    const PointValues values(on.space);
-    for (std::size_t i = 0; i < at.size(); i += 2) {
-      const auto place = values.locate({at[i], at[i + 1]});
-      if (!place)
-        throw Error(fmt::format("antilock sweep: --at: ({}, {}) is outside the mesh; accepted: points of it", at[i],
-                                at[i + 1]));
-      on.places.push_back(*place);
-    }
+    meshes.push_back(on_mesh(file, at));
   }
-  std::vector<ExactSolution> exact_solutions;
-  std::vector<ExactTable> tables;
+  ExactSolutions exact;
   const bool square = !file.mesh.from_file() || is_unit_square(meshes.front().space.mesh());
-  for (const Scene& one : scenes) {
-    std::optional<ExactSolution> exact = square ? exact_solution_of(one) : std::nullopt;
-    if (!exact) break;  // it is the load or the gap: known of every epsilon or of none
-    tables.emplace_back(*exact);
-    exact_solutions.push_back(std::move(*exact));
-  }
-  const bool known = !exact_solutions.empty();
+  if (square) exact = exact_solutions_of(scenes);
 
-  std::vector<std::string> columns{"cells", "epsilon", "unknowns"};
-  for (std::size_t i = 1; i <= at.size() / 2; ++i)
-    columns.push_back(at.size() == 2 ? "u_at" : fmt::format("u_at_{}", i));
-  columns.emplace_back("ridge");
-  if (known) columns.insert(columns.end(), {"kept", "error_max", "error_energy"});
-  columns.insert(columns.end(), {"factorisations", "corrections", "contact_steps", "seconds"});
-  Table table(columns);
-  for (const auto& [cells, space, places] : meshes) {
-    SceneSweep questions(file.scene, space);
-    const PointValues values(space);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const Stopwatch watch;
-      questions.set_epsilon(list[i]);
-      const Solution solution = questions.solve();
-      const double seconds = watch.seconds(), found = layer_displacement(space, solution.u);
-      std::vector<TableEntry> row{cells, list[i], space.free_count()};
-      for (const PointValues::Location& place : places) row.emplace_back(values.value(solution.u, place));
-      row.emplace_back(found);
-      if (known) {
-        const Errors errors = measure_errors(space, solution, list[i], reference(tables[i]));
-        row.emplace_back(exact_solutions[i].max_on_contact() > 0 ? found / exact_solutions[i].max_on_contact() : 1);
-        row.emplace_back(errors.max_at_unknowns);
-        row.emplace_back(errors.energy);
-      }
-      const Counters& c = solution.counters;
-      row.insert(row.end(), {c.factorisations, c.corrections, c.contact_iterations, seconds});
-      table.add(row);
-    }
-  }
-  if (!out.empty()) table.write(out);
+  Table table(sweep_columns(at.size() / 2, exact.known()));
+  for (const OnMesh& on : meshes) add_rows(table, file.scene, on, list, exact);
+  if (!request.out.empty()) table.write(request.out);
   table.print(file.title.empty() ? file.name : file.title);
-  if (!known)
+  if (!exact.known())
     fmt::print("  no exact solution is known of this scene: no errors (antilock exact --help says of which)\n");
   return 0;
 }
