@@ -53,7 +53,10 @@ Hierarchy hierarchy(const SceneFile& file, int ranks) {
   const bool halves = file.mesh.kind == "structured" &&
                       !std::holds_alternative<ThinLayer>(file.scene.layer());  // its rows do not halve with the cells
   const int least = std::max(16, 8 * ranks);
-  while (halves && first.mesh.cells % 2 == 0 && first.mesh.cells / 2 >= least) first.mesh.cells /= 2, ++h.refinements;
+  while (halves && first.mesh.cells % 2 == 0 && first.mesh.cells / 2 >= least) {
+    first.mesh.cells /= 2;
+    ++h.refinements;
+  }
   h.coarse = make_mesh(first);
   h.coarse_cells = std::max(first.mesh.cells, 1);
   return h;

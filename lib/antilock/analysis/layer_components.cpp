@@ -21,7 +21,10 @@ LayerComponents layer_components(const TriangleMesh& mesh) {
   double length = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const int a = mesh.edge_triangles(e, 0), b = mesh.edge_triangles(e, 1);
-    if (mesh.edge_tag[e] == EdgeTag::sigma) ++edges, length += mesh.edge_length(e);
+    if (mesh.edge_tag[e] == EdgeTag::sigma) {
+      ++edges;
+      length += mesh.edge_length(e);
+    }
     if (b >= 0 && mesh.region[a] == Region::layer && mesh.region[b] == Region::layer &&
         std::abs(x(mesh.edges(e, 0)) - x(mesh.edges(e, 1))) > vertical)
       leader[find(a)] = find(b);

@@ -23,8 +23,10 @@ double bending_length(const TriangleMesh& mesh, int triangle) {
 double bending_length(const TriangleMesh& mesh) {
   double sum = 0, area = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == Region::layer)
-      sum += mesh.area(t) * std::pow(bending_length(mesh, t), 2), area += mesh.area(t);
+    if (mesh.region[t] == Region::layer) {
+      sum += mesh.area(t) * std::pow(bending_length(mesh, t), 2);
+      area += mesh.area(t);
+    }
   return area > 0 ? std::sqrt(sum / area) : 0;
 }
 

@@ -39,7 +39,8 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
   const double estimate = energy.share(energy.estimate), lower_bound = energy.share(energy.lower_bound);
   const bool locks = estimate >= significance, by_proof = !locks || lower_bound >= significance;
   if (by_proof) report.lost = lower_bound;
-  report.estimate = estimate, report.reference = energy.reference;
+  report.estimate = estimate;
+  report.reference = energy.reference;
   if (!locks) {
     report.diagnosis += energy.reference > 0
                             ? fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy",

@@ -57,7 +57,10 @@ ContactSet NestedLevel::contact_set() const {
   std::map<double, char> by_x;
   for (std::size_t i = 0; i < all.size(); i += 2) by_x[all[i]] = all[i + 1] != 0 ? 1 : 0;
   ContactSet set;
-  for (const auto& [x, active] : by_x) set.x.push_back(x), set.active.push_back(active);
+  for (const auto& [x, active] : by_x) {
+    set.x.push_back(x);
+    set.active.push_back(active);
+  }
   return set;
 }
 
@@ -124,7 +127,8 @@ std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh
     report.loops.push_back(report.last);
     report.unknowns.push_back(level->problem.rows().total());
     report.linear_iterations += report.last.linear_iterations;
-    report.setup += report.last.seconds_setup, report.solve += report.last.seconds_solve;
+    report.setup += report.last.seconds_setup;
+    report.solve += report.last.seconds_solve;
     if (last) break;
     options.checkpoint(l, level->contact_set());
     watch.lap();

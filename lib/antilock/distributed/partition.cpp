@@ -56,7 +56,10 @@ std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks, bool any_l
   for (int c = 0, rank = 0, own = 0; c < columns; ++c) {
     const bool full = (before + filled[c] / 2) * ranks >= static_cast<long long>(rank + 1) * mesh.triangle_count();
     const bool last_chance = columns - c == ranks - rank - 1;
-    if (own > 0 && rank + 1 < ranks && (full || last_chance)) ++rank, own = 0;
+    if (own > 0 && rank + 1 < ranks && (full || last_chance)) {
+      ++rank;
+      own = 0;
+    }
     rank_of[c] = rank;
     ++own;
     before += filled[c];
@@ -74,8 +77,11 @@ TriangleMesh subdomain_of(const TriangleMesh& coarse, const std::vector<int>& ra
     subdomain.region.push_back(coarse.region[t]);
     for (const int v : coarse.triangles.row(t)) number[v] = 0;
   }
-  for (int v = 0; v < coarse.vertex_count(); ++v)
-    if (number[v] == 0) number[v] = static_cast<int>(vertices.size()), vertices.push_back(v);
+  for (int v = 0; v < coarse.vertex_count(); ++v) {
+    if (number[v] != 0) continue;
+    number[v] = static_cast<int>(vertices.size());
+    vertices.push_back(v);
+  }
   subdomain.vertices = coarse.vertices(vertices, Eigen::all);
   subdomain.triangles = coarse.triangles(triangles, Eigen::all).unaryExpr([&](int v) { return number[v]; });
   number_edges(subdomain, "a subdomain of the mesh");

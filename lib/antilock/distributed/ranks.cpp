@@ -81,7 +81,8 @@ void collectively(const std::function<void()>& work) {
     work();
     failed = ranks();
   } catch (const NotConverged& error) {
-    message = error.what(), failure = {unconverged, error.steps, error.reached};
+    message = error.what();
+    failure = {unconverged, error.steps, error.reached};
   } catch (const InputError& error) {
     message = error.what();
     failure.outcome = bad_input;

@@ -32,23 +32,30 @@ Vector solved(const DistributedProblem& problem, Vec rhs, const Eigen::VectorXd&
   ok(VecSet(high, PETSC_INFINITY));
   Linear context{problem.k(), rhs};
   Handle<SNES, SNESDestroy> solver;
-  ok(SNESCreate(PETSC_COMM_WORLD, &solver)), ok(SNESSetType(solver, SNESVINEWTONRSLS));
+  ok(SNESCreate(PETSC_COMM_WORLD, &solver));
+  ok(SNESSetType(solver, SNESVINEWTONRSLS));
   ok(SNESSetFunction(solver, r, residual, &context));
   ok(SNESSetJacobian(solver, problem.k(), problem.k(), jacobian, nullptr));
   ok(SNESVISetVariableBounds(solver, low, high));
   if (split) {
     SNESLineSearch search = nullptr;
-    ok(SNESGetLineSearch(solver, &search)), ok(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
+    ok(SNESGetLineSearch(solver, &search));
+    ok(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
     ok(SNESSetTolerances(solver, 1e-12 * load, 1e-6, 0, PETSC_DEFAULT, PETSC_DEFAULT));
   }
   ok(SNESSetTolerances(solver, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 200, PETSC_DEFAULT));
-  ok(SNESSetFromOptions(solver)), ok(SNESSolve(solver, nullptr, v));
+  ok(SNESSetFromOptions(solver));
+  ok(SNESSolve(solver, nullptr, v));
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-  PetscInt newton = 0, linear = 0;
-  ok(SNESGetConvergedReason(solver, &reason)), ok(SNESGetIterationNumber(solver, &newton));
+  PetscInt newton = 0;
+  PetscInt linear = 0;
+  ok(SNESGetConvergedReason(solver, &reason));
+  ok(SNESGetIterationNumber(solver, &newton));
   ok(SNESGetLinearSolveIterations(solver, &linear));
-  end.reason = SNESConvergedReasons[reason], end.converged = reason > 0;
-  end.newton += static_cast<int>(newton), end.linear += static_cast<int>(linear);
+  end.reason = SNESConvergedReasons[reason];
+  end.converged = reason > 0;
+  end.newton += static_cast<int>(newton);
+  end.linear += static_cast<int>(linear);
   return v;
 }
 
@@ -60,15 +67,20 @@ SnesviEnd snesvi(const DistributedProblem& problem, State& state, bool split) {
   const DofMap& rows = problem.rows();
   const Vector u = rows.vector(), rhs = rows.vector();
   rows.owned_part(state.u, u);
-  PetscReal load = 0, moved = 0, size = 0;
-  rows.summed(rows.unclamped(problem.part().load), rhs), ok(VecNorm(rhs, NORM_2, &load));
+  PetscReal load = 0;
+  PetscReal moved = 0;
+  PetscReal size = 0;
+  rows.summed(rows.unclamped(problem.part().load), rhs);
+  ok(VecNorm(rhs, NORM_2, &load));
   SnesviEnd end;
   for (bool settled = false; !settled && end.converged && end.corrections < max_corrections; ++end.corrections) {
     const Eigen::VectorXd r2 = problem.compatibility(state.u, state.p);
     rows.summed(problem.right_side(problem.equilibrium(state.u, state.p), r2), rhs);
     const Eigen::VectorXd bound = problem.lower() - Entries(u);
     const Vector du = solved(problem, rhs, bound, split, load, end);
-    ok(VecAXPY(u, 1, du)), ok(VecNorm(du, NORM_INFINITY, &moved)), ok(VecNorm(u, NORM_INFINITY, &size));
+    ok(VecAXPY(u, 1, du));
+    ok(VecNorm(du, NORM_INFINITY, &moved));
+    ok(VecNorm(u, NORM_INFINITY, &size));
     const Eigen::VectorXd step = rows.local(du);
     state.u += step;
     state.p += problem.stress_step(step, r2);

@@ -45,8 +45,10 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string&
   auto& [asked, cells, set] = checkpoint;
   try {
     const nlohmann::json read = nlohmann::json::parse(in);
-    read.at("question").get_to(asked), read.at("cells").get_to(cells);
-    read.at("x").get_to(set.x), read.at("active").get_to(set.active);
+    read.at("question").get_to(asked);
+    read.at("cells").get_to(cells);
+    read.at("x").get_to(set.x);
+    read.at("active").get_to(set.active);
   } catch (const nlohmann::json::exception&) {
     cells = 0;
   }

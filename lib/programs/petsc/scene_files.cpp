@@ -103,8 +103,12 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, con
   if (file.scene.contact()) {
     const ContactSet set = level.contact_set();
     s.zone.points = static_cast<int>(set.x.size());
-    for (std::size_t i = 0; i < set.x.size(); ++i)
-      if (set.active[i] != 0) ++s.zone.active, s.zone.from = s.zone.from.value_or(set.x[i]), s.zone.to = set.x[i];
+    for (std::size_t i = 0; i < set.x.size(); ++i) {
+      if (set.active[i] == 0) continue;
+      ++s.zone.active;
+      s.zone.from = s.zone.from.value_or(set.x[i]);
+      s.zone.to = set.x[i];
+    }
   }
   s.kkt = report.kkt;
   s.contact_steps = report.last.set_changes + 1;

@@ -17,8 +17,10 @@ namespace {
 
 /// The same on every rank.
 double penalty_over_all(StiffnessRatio s) {
-  s.trace_a0 = sum(s.trace_a0), s.trace_a1 = sum(s.trace_a1);
-  s.max_a0 = largest(s.max_a0), s.max_a1 = largest(s.max_a1);
+  s.trace_a0 = sum(s.trace_a0);
+  s.trace_a1 = sum(s.trace_a1);
+  s.max_a0 = largest(s.max_a0);
+  s.max_a1 = largest(s.max_a1);
   return choose_penalty(s);
 }
 
@@ -64,7 +66,8 @@ void DistributedProblem::sum_k(SparseMatrix part) {
   ok(MatCreateIS(PETSC_COMM_WORLD, 1, rows_.owned(), rows_.owned(), PETSC_DETERMINE, PETSC_DETERMINE, to_rows, to_rows,
                  &sum));
   ok(MatISSetLocalMat(sum, own));
-  ok(MatAssemblyBegin(sum, MAT_FINAL_ASSEMBLY)), ok(MatAssemblyEnd(sum, MAT_FINAL_ASSEMBLY));
+  ok(MatAssemblyBegin(sum, MAT_FINAL_ASSEMBLY));
+  ok(MatAssemblyEnd(sum, MAT_FINAL_ASSEMBLY));
   ok(MatConvert(sum, MATAIJ, MAT_INITIAL_MATRIX, &k_));
 }
 
