@@ -8,8 +8,8 @@
 namespace antilock {
 namespace {
 
-/// Halving an edge forces the triangles beside it to be halved from their newest vertex first: marks
-/// spread until every triangle with a marked edge has its edge 0 marked.
+/// Halving an edge forces the triangles beside it to be halved from their newest vertex first:
+/// marks spread until every triangle with a marked edge has its edge 0 marked.
 void close_marks(const TriangleMesh& mesh, std::vector<char>& marked) {
   std::vector<int> waiting;
   for (int e = 0; e < mesh.edge_count(); ++e)

@@ -172,8 +172,8 @@ Eigen::VectorXd values_above(const Strip& strip, const TriangleMesh& mesh, const
   return near;
 }
 
-/// Fixes the known values in the problem of a scene on the strip, and gives it bounds that keep v in
-/// K. `near` as in admissible_bounds.
+/// Fixes the known values in the problem of a scene on the strip, and gives it bounds that keep v
+/// in K. `near` as in admissible_bounds.
 void add_conditions(VariationalInequality& problem, const Strip& strip, const Scene& scene,
                     const Eigen::VectorXd& near) {
   if (scene.contact()) problem.lower = admissible_bounds(*scene.contact(), strip.space, near);

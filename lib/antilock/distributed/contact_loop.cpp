@@ -35,7 +35,8 @@ class HeldSystem {
     ok(PCSetType(factor, PCCHOLESKY));
     ok(PCFactorSetMatSolverType(factor, MATSOLVERMUMPS));
   }
-  /// Holds the rows of the set; moves what they do to the others (K times `jump`) to the right-hand side.
+  /// Holds the rows of the set; moves what they do to the others (K times `jump`) to the right-hand
+  /// side.
   void hold(const std::vector<PetscInt>& rows, Vec jump, Vec rhs) {
     ok(MatCopy(problem_.k(), held_, SAME_NONZERO_PATTERN));
     ok(MatZeroRowsColumns(held_, static_cast<PetscInt>(rows.size()), rows.data(), 1 / problem_.delta(), jump, rhs));
@@ -137,8 +138,8 @@ class ContactLoop {
     return r2;
   }
 
-  /// The contact set that (u, lambda = -r1) proposes: kept where it presses, entered where u is below
-  /// the bound. The first set is that of the start. `jump` becomes bound - u on the set.
+  /// The contact set that (u, lambda = -r1) proposes: kept where it presses, entered where u is
+  /// below the bound. The first set is that of the start. `jump` becomes bound - u on the set.
   ContactStep propose_set(bool first) {
     const Eigen::VectorXd& lower = problem_.lower();
     ContactStep set;
@@ -196,8 +197,8 @@ class ContactLoop {
         std::max(report_.change, set.unbalanced), step);
   }
 
-  /// Sets up the system on the set where it is due, and solves for du off the set, where the known du
-  /// is added afterwards: solved for inexactly, it would be off.
+  /// Sets up the system on the set where it is due, and solves for du off the set, where the known
+  /// du is added afterwards: solved for inexactly, it would be off.
   void solve_on_set(const ContactStep& set, bool first) {
     const bool new_set = first || set.changed > 0;
     const bool smooth = first && options_.smoothings > 0;

@@ -123,7 +123,8 @@ class Extrusion {
       }
   }
 
-  /// Adds the triangles of the column below an edge, from Sigma down, and its edges on the boundary.
+  /// Adds the triangles of the column below an edge, from Sigma down, and its edges on the
+  /// boundary.
   void add_column(int left, int right) {
     for (int j = 0; j < rows_; ++j) {
       triangles_.emplace_back(vertex(left, j + 1), vertex(right, j + 1), vertex(right, j));

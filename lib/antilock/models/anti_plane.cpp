@@ -113,8 +113,9 @@ bool springs_alone_hold_a_component(const TriangleMesh& mesh) {
   return find_floating_component(mesh, [&](int e) { return is_dirichlet(mesh.edge_tag[e]); }) >= 0;
 }
 
-/// Adds springs to A1, or to B where their entries are far above those of A1. Throws Error where they are 1e20 times the
-/// softest stiffness: the rounding of a row is then no longer small beside it.
+/// Adds springs to A1, or to B where their entries are far above those of A1. Throws Error where
+/// they are 1e20 times the softest stiffness: the rounding of a row is then no longer small beside
+/// it.
 void add_springs(VariationalInequality& problem, const std::vector<WeightedFactoredForm>& springs,
                  const StiffnessRange& range) {
   for (const WeightedFactoredForm& rows : springs) {
@@ -132,9 +133,10 @@ void add_springs(VariationalInequality& problem, const std::vector<WeightedFacto
   }
 }
 
-/// The values that the Dirichlet edges at each place, an unknown or a vertex, give to it. A clamped edge gives 0 where no group
-/// with a displacement meets it. Where groups meet with different values, no continuous function has them all. The place
-/// takes their mean, so that the order of the groups does not matter.
+/// The values that the Dirichlet edges at each place, an unknown or a vertex, give to it. A clamped
+/// edge gives 0 where no group with a displacement meets it. Where groups meet with different
+/// values, no continuous function has them all. The place takes their mean, so that the order of
+/// the groups does not matter.
 class PrescribedValues {
  public:
   void give(int place, EdgeTag tag, double value) { at_[place][tag] = value; }
@@ -197,8 +199,8 @@ StiffnessRange checked_range(const Scene& scene, const TriangleMesh& mesh, const
   return range;
 }
 
-/// Takes the stiffnesses out of `in_a1` that are too large for it, and returns them. Empty if there is
-/// none.
+/// Takes the stiffnesses out of `in_a1` that are too large for it, and returns them. Empty if there
+/// is none.
 std::vector<Stiffness> take_rows(std::vector<Stiffness>& in_a1, const StiffnessRange& range) {
   std::vector<Stiffness> in_rows;
   for (std::size_t t = 0; t < in_a1.size(); ++t) {
@@ -228,7 +230,8 @@ void add_contact(VariationalInequality& problem, const UnilateralContact& contac
     if (!std::isfinite(problem.lower(i))) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
   if (!contact.upper_obstacle) return;
   problem.upper = x.unaryExpr(contact.upper_obstacle);
-  // where two formulas say the same, the round-off of one must not put the ceiling below the obstacle
+  // where two formulas say the same, the round-off of one must not put the ceiling below the
+  // obstacle
   const Eigen::ArrayXd lower = problem.lower.array();
   const Eigen::ArrayXd round_off = 1e-12 * lower.abs().max(1);
   for (Eigen::Index i = 0; i < x.size(); ++i)

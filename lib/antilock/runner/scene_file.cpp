@@ -22,8 +22,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// A section of the file: gives its values, each checked by the key's row of scene_keys(), and refuses with the name of
-/// the file and of the key.
+/// A section of the file: gives its values, each checked by the key's row of scene_keys(), and
+/// refuses with the name of the file and of the key.
 class Section {
  public:
   /// `name`: in messages; `kind`: in the table, where its sections of one kind have numbers.
@@ -151,8 +151,8 @@ toml::table parse(const std::string& text, const std::string& name) {
   }
 }
 
-/// A field or a profile: a text that does not parse, or a value that is not finite, is refused with the file and the
-/// key.
+/// A field or a profile: a text that does not parse, or a value that is not finite, is refused with
+/// the file and the key.
 auto named(const Section& section, const std::string& key, const std::vector<std::string>& variables) {
   const std::string text = section.text(key);
   const auto naming = [where = section.where(key)](const auto& ask) {
@@ -179,8 +179,8 @@ Field field_above(const Field& f, const std::string& where, bool zero_too) {
   };
 }
 
-/// Asked on grids of the closed unit square that share few places, with every x and y of one or two decimals or of a
-/// denominator up to 6: there the poles of formulas written by hand are met.
+/// Asked on grids of the closed unit square that share few places, with every x and y of one or two
+/// decimals or of a denominator up to 6: there the poles of formulas written by hand are met.
 void sample_load(const Field& f) {
   for (const int n : {100, 120, 128})
     for (int i = 0; i <= n; ++i)
@@ -201,7 +201,8 @@ Body read_body(const Section& root) {
   return read;
 }
 
-/// `stiffness = { left = 1, right = 10 }`: the surfaces of the file and their numbers, found by place.
+/// `stiffness = { left = 1, right = 10 }`: the surfaces of the file and their numbers, found by
+/// place.
 void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGroups& groups, Body& read) {
   if (!body.table()["stiffness"].is_table()) return;
   std::vector<double> numbers;

@@ -1,4 +1,5 @@
-// antilock estimate SCENE.toml MESH.msh U.csv: the error of another program's solution, estimated and bounded.
+// antilock estimate SCENE.toml MESH.msh U.csv: the error of another program's solution, estimated
+// and bounded.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -36,7 +37,8 @@ struct Matched {
   std::string wrong = {};     ///< not empty: the first row at no unknown, or at one for the second time
 };
 
-/// The digits of a file are cut off: a row is at the unknown that is nearest, within `most_off` of the triangle's size.
+/// The digits of a file are cut off: a row is at the unknown that is nearest, within `most_off` of
+/// the triangle's size.
 Matched matched(const Space& space, const Eigen::MatrixXd& rows, double most_off) {
   const PointValues at(space);
   const Eigen::MatrixX3d nodes = space.element().support_points();
@@ -64,7 +66,8 @@ Matched matched(const Space& space, const Eigen::MatrixXd& rows, double most_off
   return found;
 }
 
-/// The significant digits with which the numbers were written: the fewest that give each of them back.
+/// The significant digits with which the numbers were written: the fewest that give each of them
+/// back.
 int digits_of(const Eigen::MatrixXd& numbers) {
   constexpr int most = std::numeric_limits<double>::max_digits10;
   const auto gives_back = [](double number, int digits) {
@@ -77,8 +80,8 @@ int digits_of(const Eigen::MatrixXd& numbers) {
   return digits;
 }
 
-/// Where more than this share of a triangle's size is cut off from the rows' places, as much is cut off from u and its
-/// slopes, and the four digits of the errors that are printed are none.
+/// Where more than this share of a triangle's size is cut off from the rows' places, as much is cut
+/// off from u and its slopes, and the four digits of the errors that are printed are none.
 constexpr double most_cut_off = 1e-4;
 
 /// The answer of another program, by unknown of the first space that its rows fit.
@@ -88,7 +91,8 @@ struct ReadAnswer {
   std::string digits = {};  ///< what is to be said of them
 };
 
-/// Throws Error for rows that fit neither the vertices nor the midpoints, or with too few digits to tell where they are.
+/// Throws Error for rows that fit neither the vertices nor the midpoints, or with too few digits to
+/// tell where they are.
 void match(ReadAnswer& answer, const TriangleMesh& mesh, const Eigen::MatrixXd& rows, const std::string& file,
            const std::string& mesh_file) {
   const int digits = digits_of(rows.leftCols(2));
@@ -96,8 +100,9 @@ void match(ReadAnswer& answer, const TriangleMesh& mesh, const Eigen::MatrixXd& 
   for (const Element* element : {&p1(), &crouzeix_raviart()}) {
     const Space& space = answer.space.emplace(mesh, *element);
     if (rows.rows() != space.size()) continue;
-    // Nine digits leave less than the first on any mesh that is not extreme. The last, a tenth of the way to the next
-    // unknown, is for the message alone: what is farther off is of another mesh.
+    // Nine digits leave less than the first on any mesh that is not extreme. The last, a tenth of
+    // the way to the next unknown, is for the message alone: what is farther off is of another
+    // mesh.
     Matched found;
     for (const double most_off : {1e-6, most_cut_off, 0.05}) {
       found = matched(space, rows, most_off);
@@ -126,7 +131,8 @@ void match(ReadAnswer& answer, const TriangleMesh& mesh, const Eigen::MatrixXd& 
                   file, rows.rows(), mesh.vertex_count(), mesh.edge_count(), mesh_file, wrong));
 }
 
-/// |v|_a of a discrete function; infinite at compliance 0 unless B v = 0 to the round-off of values of the size of `of`.
+/// |v|_a of a discrete function; infinite at compliance 0 unless B v = 0 to the round-off of values
+/// of the size of `of`.
 double energy_norm(const VariationalInequality& problem, const Eigen::VectorXd& v, const Eigen::VectorXd& of) {
   const Eigen::VectorXd slope = problem.b * v;
   const double stiff = slope.dot(problem.m.cwiseProduct(slope)), soft = v.dot(problem.a1 * v);
@@ -139,7 +145,8 @@ struct Bound {
   std::string of;  // what it bounds, and why it holds
 };
 
-/// Conforming: v is raised into K where it is not there, and J(v) - J(u) >= |u - v|_a^2 / 2, since u minimises J over K.
+/// Conforming: v is raised into K where it is not there, and J(v) - J(u) >= |u - v|_a^2 / 2, since
+/// u minimises J over K.
 Bound conforming_bound(const Scene& scene, const Space& space, const VariationalInequality& problem, Eigen::VectorXd v,
                        double energy_lower) {
   const Eigen::VectorXd given = v;
@@ -166,7 +173,8 @@ Bound conforming_bound(const Scene& scene, const Space& space, const Variational
                       moved > 0 ? fmt::format(", and {:.2g} for the way into K", moved) : "")};
 }
 
-/// Nonconforming: the certificate of our own Crouzeix-Raviart answer on this mesh, and the distance of the two.
+/// Nonconforming: the certificate of our own Crouzeix-Raviart answer on this mesh, and the distance
+/// of the two.
 Bound nonconforming_bound(const Scene& scene, const Space& space, const VariationalInequality& problem,
                           const Eigen::VectorXd& v, const Solution& own) {
   const double certified = certify(scene, {space, problem, own}).gradient, apart = energy_norm(problem, own.u - v, v);
@@ -176,9 +184,10 @@ Bound nonconforming_bound(const Scene& scene, const Space& space, const Variatio
                                          certified, apart)};
 }
 
-/// Theorem C (tutorials/guides/uniform_rate.md): where each triangle has a vertical and a horizontal edge, the error of the
-/// discrete solution is at most 1.7 h |f| (CR) and 1.3 h |f| (P1) in the energy norm, whatever epsilon is; h is the longest
-/// edge, |f| the L2 norm over the body. Empty on any other mesh.
+/// Theorem C (tutorials/guides/uniform_rate.md): where each triangle has a vertical and a
+/// horizontal edge, the error of the discrete solution is at most 1.7 h |f| (CR) and 1.3 h |f| (P1)
+/// in the energy norm, whatever epsilon is; h is the longest edge, |f| the L2 norm over the body.
+/// Empty on any other mesh.
 std::optional<double> a_priori_bound(const Space& space, const Field& f) {
   const TriangleMesh& mesh = space.mesh();
   double squared = 0;
@@ -200,7 +209,8 @@ std::optional<double> a_priori_bound(const Space& space, const Field& f) {
   return (space.element().conforming() ? 1.3 : 1.7) * mesh.diameter() * std::sqrt(squared);
 }
 
-/// Antilock's own answer in place of the exact solution, at any point of its mesh. Both must outlive it.
+/// Antilock's own answer in place of the exact solution, at any point of its mesh. Both must
+/// outlive it.
 Reference reference(const Result& own, const PointValues& at) {
   const auto place = [&at](double x, double y) {
     const auto found = at.locate({x, y}, 1e-6);  // of a triangle's size: its own mesh has the same boundary, rounded
@@ -220,7 +230,8 @@ Reference reference(const Result& own, const PointValues& at) {
   return reference;
 }
 
-/// Where the error lies. The share of a region is that of the square of the error, since squares add up.
+/// Where the error lies. The share of a region is that of the square of the error, since squares
+/// add up.
 struct Places {
   double layer = 0, contact = 0;  // shares: of the layer, and of the triangles with an unknown on the contact boundary
   std::vector<int> worst;         // the triangles that hold half of the square, the worst first
@@ -336,8 +347,8 @@ void add_bound(EstimateReport& report, const GivenSolution& given, const Bound& 
       "answer is not 0: digits are missing, or it is not of this mesh's space\n");
 }
 
-/// Where the error lies. `error` (by triangle) is exact, or against a solution whose own error is at
-/// most `within`.
+/// Where the error lies. `error` (by triangle) is exact, or against a solution whose own error is
+/// at most `within`.
 void add_places(EstimateReport& report, const Space& space, const Eigen::VectorXd& error, bool exact, double within) {
   const TriangleMesh& mesh = space.mesh();
   const Places places = places_of(space, error);
