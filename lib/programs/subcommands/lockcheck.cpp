@@ -116,6 +116,38 @@ void add_files(CLI::App& line, Files& files, const std::string& prefix) {
                   "CSV unknown,lower or unknown,lower,upper: what is bounded; -inf and inf for none");
 }
 
+/// The solutions as the compliance tends to 0.
+struct ComplianceTable {
+  Table table{std::vector<std::string>{"compliance", "energy", "largest_u", "corrections", "kkt"}};
+  /// compliance, unknown, u, lambda; lambda is the force of a bound, 0 where there is none.
+  Eigen::MatrixXd answers = Eigen::MatrixXd(0, 4);
+};
+
+/// `load_file`: for the message where an energy is not finite.
+ComplianceTable solve_all(const VariationalInequality& problem, const std::string& load_file) {
+  Sweep sweep(problem);
+  ComplianceTable found;
+  const Eigen::Index n = problem.size();
+  for (const double compliance : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 0.0}) {
+    sweep.set_compliance(compliance);
+    const Solution solution = sweep.solve();
+    const double j = energy(sweep.problem(), solution);
+    if (!std::isfinite(j))
+      throw Error(
+          fmt::format("{}: the energy of the answer is {}; accepted: a load whose energy is a number", load_file, j));
+    const double largest = solution.u.lpNorm<Eigen::Infinity>();
+    found.table.add({compliance, j, largest, solution.counters.corrections, solution.kkt.residual});
+    found.answers.conservativeResize(found.answers.rows() + n, Eigen::NoChange);
+    auto rows = found.answers.bottomRows(n);
+    rows.col(0).setConstant(compliance);
+    rows.col(1) = Eigen::VectorXd::LinSpaced(n, 0, double(n - 1));
+    rows.col(2) = solution.u;
+    rows.col(3).setZero();
+    rows(problem.contact, 3) = solution.lambda;
+  }
+  return found;
+}
+
 }  // namespace
 
 int lockcheck(int argc, char** argv) {
@@ -151,7 +183,9 @@ int lockcheck(int argc, char** argv) {
         "antilock lockcheck: nothing to do: one mesh without a load tells nothing; accepted: a LOAD, --finer, or both");
   std::string diagnosis;
   if (!fine.empty()) {
-    finer.a1 = fine[0], finer.b = fine[1], finer.m = fine[2];
+    finer.a1 = fine[0];
+    finer.b = fine[1];
+    finer.m = fine[2];
     diagnosis = diagnose_locking(problem, read_problem(finer)).text();
   }
   if (files.load.empty()) {
@@ -159,28 +193,10 @@ int lockcheck(int argc, char** argv) {
     return 0;
   }
 
-  Sweep sweep(problem);
-  Table table({"compliance", "energy", "largest_u", "corrections", "kkt"});
-  const Eigen::Index n = problem.size();
-  Eigen::MatrixXd answers(0, 4);
-  for (const double compliance : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 0.0}) {
-    sweep.set_compliance(compliance);
-    const Solution solution = sweep.solve();
-    const double j = energy(sweep.problem(), solution);
-    if (!std::isfinite(j))
-      throw Error(fmt::format("{}: the energy of the answer is {}; accepted: a load whose energy is a number",
-                              files.load.string(), j));
-    table.add(
-        {compliance, j, solution.u.lpNorm<Eigen::Infinity>(), solution.counters.corrections, solution.kkt.residual});
-    answers.conservativeResize(answers.rows() + n, Eigen::NoChange);
-    auto rows = answers.bottomRows(n);
-    rows << Eigen::VectorXd::Constant(n, compliance), Eigen::VectorXd::LinSpaced(n, 0, double(n - 1)), solution.u,
-        Eigen::VectorXd::Zero(n);
-    rows(problem.contact, 3) = solution.lambda;
-  }
+  const ComplianceTable found = solve_all(problem, files.load.string());
   if (!diagnosis.empty()) fmt::print("{}\n", diagnosis);
-  table.print("the answers as the compliance tends to 0");
-  if (!out.empty()) write_csv(out, {"compliance", "unknown", "u", "lambda"}, answers);
+  found.table.print("the answers as the compliance tends to 0");
+  if (!out.empty()) write_csv(out, {"compliance", "unknown", "u", "lambda"}, found.answers);
   return 0;
 }
 
