@@ -443,6 +443,38 @@ class Vertices {
   std::vector<int> number_;  ///< by place in the file
 };
 
+/// The places of the nodes of an element, up to three.
+std::array<int, 3> places_of_nodes(const MshLines& lines, const FileElement& element,
+                                   const std::unordered_map<std::int64_t, int>& place_of) {
+  std::array<int, 3> places{};
+  for (int i = 0; i < element.size; ++i) {
+    const auto node = place_of.find(element.nodes[i]);
+    if (node == place_of.end())
+      lines.refuse_at<MeshError>(element.line, "element {} has node {}, which $Nodes does not list", element.tag,
+                                 element.nodes[i]);
+    places[i] = node->second;
+  }
+  return places;
+}
+
+/// Throws unless every group that is needed, and every one that the file names, has elements.
+void check_groups(const MshLines& lines, const MshFile& file, const ExtraGroups& more, const GroupNames& found) {
+  for (const auto& [dimension, name] : GroupNames{{2, "body"}, {1, "clamped"}, {1, "contact"}}) {
+    if (found.contains({dimension, name})) continue;
+    const bool replaced = (name == "body" && !more.bodies.empty()) || (name == "clamped" && !more.curves.empty());
+    if (!replaced)
+      lines.refuse_file<MeshError>("has nothing in the physical group {}; needed: body, clamped, contact",
+                                   in_quotes(name));
+  }
+  for (const auto& [name, tag] : more.curves)
+    if (!found.contains({1, name})) lines.refuse_file<MeshError>("has no curve in the group {}", in_quotes(name));
+  for (const std::string& name : more.bodies)
+    if (!found.contains({2, name})) lines.refuse_file<MeshError>("has no surface in the group {}", in_quotes(name));
+  for (const auto& [place, name] : file.names)
+    if (!found.contains({place.first, name}))
+      lines.refuse_file<MeshError>("names the physical group {}, but it is empty", in_quotes(name));
+}
+
 TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGroups& more, std::vector<int>* part) {
   std::map<std::string, EdgeTag> edge_tags = more.curves;
   edge_tags.insert({{"sigma", EdgeTag::sigma}, {"clamped", EdgeTag::clamped}, {"contact", EdgeTag::contact}});
@@ -460,14 +492,7 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGrou
   for (const FileElement& element : file.elements) {
     if (!tags.insert(element.tag).second)
       lines.refuse_at<MeshError>(element.line, "element number {} is used twice", element.tag);
-    std::array<int, 3> vertices{};
-    for (int i = 0; i < element.size; ++i) {
-      const auto node = place_of.find(element.nodes[i]);
-      if (node == place_of.end())
-        lines.refuse_at<MeshError>(element.line, "element {} has node {}, which $Nodes does not list", element.tag,
-                                   element.nodes[i]);
-      vertices[i] = node->second;
-    }
+    const std::array<int, 3> vertices = places_of_nodes(lines, element, place_of);
     if (element.dimension() == 0) continue;
     // Mesh.SaveAll: of the lines within the body nothing is said, and a side in no group is refused with its place
     if (element.dimension() == 1 && group_number(lines, file, element) == 0) continue;
@@ -495,19 +520,7 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGrou
       }
     }
   }
-  for (const auto& [dimension, name] : GroupNames{{2, "body"}, {1, "clamped"}, {1, "contact"}})
-    if (!found.contains({dimension, name}) && !(name == "body" && !more.bodies.empty()) &&
-        !(name == "clamped" && !more.curves.empty()))
-      lines.refuse_file<MeshError>("has nothing in the physical group {}; needed: body, clamped, contact",
-                                   in_quotes(name));
-  for (const auto& [name, tag] : more.curves)
-    if (!found.contains({1, name})) lines.refuse_file<MeshError>("has no curve in the group {}", in_quotes(name));
-  for (const std::string& name : more.bodies)
-    if (!found.contains({2, name})) lines.refuse_file<MeshError>("has no surface in the group {}", in_quotes(name));
-  for (const auto& [place, name] : file.names)
-    if (!found.contains({place.first, name}))
-      lines.refuse_file<MeshError>("names the physical group {}, but it is empty", in_quotes(name));
-
+  check_groups(lines, file, more, found);
   used.number(lines);
   for (auto& triangle : corners)
     for (int& corner : triangle) corner = used.at(corner);
