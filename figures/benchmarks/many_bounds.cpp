@@ -63,16 +63,16 @@ void crossover(const std::filesystem::path& folder) {
     for (const int rows : {1, 2, 4, 6, 8, 10, 12}) {
       VariationalInequality problem = test::membrane_over_obstacle(n);
       const int m = n - 1, first = (m - rows) / 2 * m;
-      problem.contact.erase(problem.contact.begin() + first + rows * m, problem.contact.end());
-      problem.contact.erase(problem.contact.begin(), problem.contact.begin() + first);
-      problem.lower = Eigen::VectorXd(problem.lower(problem.contact));
+      const auto begin = problem.bounds.unknowns.begin() + first;
+      problem.bounds = Bounds::lower_on({begin, begin + rows * m}, problem.bounds.lower.segment(first, rows * m));
       const double dense = measure(problem, ContactReduction::schur_complement).seconds;
       const double sparse = measure(problem, ContactReduction::sparse).seconds;
       fmt::print(
           "{:>6} unknowns, {:>5} bounds = {:>2} sqrt(F): dense {:.3g} s, sparse {:.3g} s, dense over sparse {:.2f}\n",
-          problem.size(), problem.contact.size(), rows, dense, sparse, dense / sparse);
+          problem.size(), problem.bounds.unknowns.size(), rows, dense, sparse, dense / sparse);
       std::fflush(stdout);
-      csv += fmt::format("{},{},{},{:.4g},{:.4g}\n", problem.size(), problem.contact.size(), rows, dense, sparse);
+      csv +=
+          fmt::format("{},{},{},{:.4g},{:.4g}\n", problem.size(), problem.bounds.unknowns.size(), rows, dense, sparse);
     }
   write_file(folder / "crossover.csv", [&](std::ostream& out) { out << csv; });
 }

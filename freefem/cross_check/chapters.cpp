@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/error.hpp"
@@ -81,8 +82,9 @@ Numbers string_on_an_obstacle(int cells, const std::filesystem::path& folder) {
   VariationalInequality problem = strings({cells});
   problem.load.setConstant(-32.0 / cells);
   problem.load(0) = problem.load(cells) = -16.0 / cells;
-  for (int i = 1; i < cells; ++i) problem.contact.push_back(i);
-  problem.lower = Eigen::VectorXd::Constant(cells - 1, -1);
+  std::vector<int> inside(cells - 1);
+  std::iota(inside.begin(), inside.end(), 1);
+  problem.bounds = Bounds::lower_on(inside, Eigen::VectorXd::Constant(cells - 1, -1));
   const Solution ours = active_set(problem);
   Numbers numbers;
   numbers.unknowns = cells + 1;
@@ -189,8 +191,9 @@ Numbers glued_strings(int cells, const std::filesystem::path& folder) {
     fill_glue(problem, cells, mortar);
     for (int i = 1; i <= cells; ++i) problem.load(i) = -load / (cells + 1);
     problem.load(0) = problem.load(cells + 1) = -0.5 * load / (cells + 1);
-    for (int i = 1; i < cells; ++i) problem.contact.push_back(cells + 2 + i);
-    problem.lower = Eigen::VectorXd::Constant(cells - 1, -gap);
+    std::vector<int> inside(cells - 1);
+    std::iota(inside.begin(), inside.end(), cells + 3);
+    problem.bounds = Bounds::lower_on(inside, Eigen::VectorXd::Constant(cells - 1, -gap));
     for (int k = 0; k <= 12; ++k, ++row) {
       problem.compliance = std::pow(10.0, -k);
       const Solution ours = active_set(problem);

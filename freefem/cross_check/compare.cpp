@@ -23,7 +23,6 @@
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
-#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/summed.hpp"
 #include "antilock/solve/uzawa.hpp"
@@ -62,7 +61,7 @@ VariationalInequality problem_on(const Space& space, double epsilon) {
 std::string contact_words(const VariationalInequality& problem, const Solution& ours, const freefem::Result& theirs,
                           int disagree) {
   if (disagree == 0) return "same";
-  const double gap = std::max(ours.u(problem.contact).cwiseAbs().maxCoeff(), theirs.gap.cwiseAbs().maxCoeff());
+  const double gap = std::max(ours.u(problem.bounds.unknowns).cwiseAbs().maxCoeff(), theirs.gap.cwiseAbs().maxCoeff());
   return gap < 1e-9 ? "none moves" : fmt::format("{} others", disagree);
 }
 
@@ -138,7 +137,7 @@ std::string same_set(const Solution& ours, const Eigen::VectorXd& force) {
 /// The same with friction: where a force is at its bound, nothing holds.
 std::string same_zones(const VariationalInequality& problem, const Solution& ours, Eigen::VectorXd force) {
   for (Eigen::Index i = 0; i < force.size(); ++i)
-    if (problem.force_limit.size() > 0 && std::abs(force(i)) >= (1 - 1e-9) * problem.force_limit(i)) force(i) = 0;
+    if (std::abs(force(i)) >= (1 - 1e-9) * problem.bounds.force_limit(i)) force(i) = 0;
   return same_set(ours, force);
 }
 

@@ -188,9 +188,10 @@ Comparison compare(const Space& space, const VariationalInequality& problem, con
   c.difference = (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff();
   const double j = energy(problem, ours);
   c.energy = std::abs(j - theirs.energy) / std::abs(j);
-  if (problem.contact.empty()) return c;
-  if (theirs.gap.size() != static_cast<Eigen::Index>(problem.contact.size()))
-    throw Error(fmt::format("compare: {} contact unknowns here, {} there", problem.contact.size(), theirs.gap.size()));
+  if (problem.bounds.unknowns.empty()) return c;
+  if (theirs.gap.size() != static_cast<Eigen::Index>(problem.bounds.unknowns.size()))
+    throw Error(
+        fmt::format("compare: {} contact unknowns here, {} there", problem.bounds.unknowns.size(), theirs.gap.size()));
   const Eigen::MatrixX3d table = contact_table({space, problem, ours});  // x, gap, pressure
   for (Eigen::Index i = 0; i < table.rows(); ++i) {
     const bool undecided = std::max({std::abs(table(i, 1)), std::abs(theirs.gap(i)), std::abs(table(i, 2)),

@@ -68,8 +68,8 @@ dist::ContactSet first_guess(const Scene& scene) {
   const VariationalInequality problem = assemble(scene, space);
   const Solution solution = active_set(problem);
   dist::ContactSet set;
-  for (std::size_t i = 0; i < problem.contact.size(); ++i) {
-    set.x.push_back(space.dof_coordinates()(problem.contact[i], 0));
+  for (std::size_t i = 0; i < problem.bounds.unknowns.size(); ++i) {
+    set.x.push_back(space.dof_coordinates()(problem.bounds.unknowns[i], 0));
     set.active.push_back(solution.active[i] ? 1 : 0);
   }
   return set;

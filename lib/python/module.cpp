@@ -30,19 +30,18 @@ namespace {
 using Unlocked = py::gil_scoped_release;
 
 VariationalInequality problem_from(SparseMatrix a1, RowMatrix b, VectorXd m, VectorXd load, double compliance,
-                                   std::vector<int> fixed, VectorXd fixed_values, std::vector<int> contact,
-                                   VectorXd lower, VectorXd upper, VectorXd force_limit) {
-  VariationalInequality problem{std::move(a1),
-                                std::move(b),
-                                std::move(m),
-                                compliance,
-                                std::move(load),
-                                std::move(fixed),
-                                std::move(fixed_values),
-                                std::move(contact),
-                                std::move(lower),
-                                std::move(upper),
-                                std::move(force_limit)};
+                                   std::vector<int> fixed, VectorXd fixed_values, std::vector<int> bounded,
+                                   VectorXd lower, VectorXd upper, std::optional<VectorXd> force_limit) {
+  BoundLimits limits(std::move(lower), std::move(upper));
+  if (force_limit) limits.force_limit = std::move(*force_limit);
+  VariationalInequality problem{.a1 = std::move(a1),
+                                .b = std::move(b),
+                                .m = std::move(m),
+                                .compliance = compliance,
+                                .load = std::move(load),
+                                .dirichlet_dofs = std::move(fixed),
+                                .dirichlet_values = std::move(fixed_values),
+                                .bounds = {std::move(bounded), std::move(limits)}};
   check(problem);
   return problem;
 }
@@ -86,9 +85,9 @@ Solved answer_of(const VariationalInequality& problem, double tolerance) {
   const VectorXd lambda = a.lambda;
   const std::vector<bool> active = a.active;
   a.lambda.setZero(problem.size()), a.active.assign(std::size_t(problem.size()), false);
-  for (std::size_t i = 0; i < problem.contact.size(); ++i) {
-    a.lambda(problem.contact[i]) = lambda(Eigen::Index(i));
-    a.active[std::size_t(problem.contact[i])] = active[i];
+  for (std::size_t i = 0; i < problem.bounds.unknowns.size(); ++i) {
+    a.lambda(problem.bounds.unknowns[i]) = lambda(Eigen::Index(i));
+    a.active[std::size_t(problem.bounds.unknowns[i])] = active[i];
   }
   return a;
 }
@@ -227,7 +226,8 @@ PYBIND11_MODULE(_antilock, module) {
       .def_readonly("own_compliances", &P::fixed_compliances, "of the last rows of b, in place of `compliance`")
       .def_readonly("load", &P::load, "N")
       .def_readonly("fixed", &P::dirichlet_dofs, "the unknowns that are held")
-      .def_readonly("contact", &P::contact, "the unknowns that are bounded")
+      .def_property_readonly(
+          "contact", [](const P& p) { return p.bounds.unknowns; }, "the unknowns that are bounded")
       .def_property_readonly(
           "a1", [](const P& p) { return p.a1; }, "N x N, scipy's CSC, a copy")
       .def_property_readonly(

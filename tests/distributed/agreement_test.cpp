@@ -44,8 +44,8 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
   for (int i = 0; i < space.size(); ++i)
     u[key(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))] = serial.u(i);
   std::map<long long, bool> in_contact;
-  for (std::size_t i = 0; i < problem.contact.size(); ++i)
-    in_contact[std::get<0>(key(space.dof_coordinates()(problem.contact[i], 0), 0))] = serial.active[i];
+  for (std::size_t i = 0; i < problem.bounds.unknowns.size(); ++i)
+    in_contact[std::get<0>(key(space.dof_coordinates()(problem.bounds.unknowns[i], 0), 0))] = serial.active[i];
 
   NestedOptions options;
   options.refinements = refinements;

@@ -191,8 +191,8 @@ TEST(Report, IsTheSerialOneOfTheSameNumbers) {
     if (level->state.u(i) != 0)
       level->state.u(i) += push(level->space.dof_coordinates()(i, 0), level->space.dof_coordinates()(i, 1));
   const Eigen::VectorXd forces = -exact_residual(problem, serial.u, serial.p, Eigen::VectorXd(0)).r1;
-  for (std::size_t i = 0; i < problem.contact.size(); ++i)  // the forces that the distributed side takes
-    serial.lambda(static_cast<Eigen::Index>(i)) = serial.active[i] ? forces(problem.contact[i]) : 0;
+  for (std::size_t i = 0; i < problem.bounds.unknowns.size(); ++i)  // the forces that the distributed side takes
+    serial.lambda(static_cast<Eigen::Index>(i)) = serial.active[i] ? forces(problem.bounds.unknowns[i]) : 0;
   serial.penalised_max_u = 0;
   const Kkt theirs = antilock::kkt_report(problem, serial), ours = kkt_report(level->problem, level->state);
   EXPECT_GT(ours.residual, 1e-4);

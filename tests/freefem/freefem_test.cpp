@@ -56,7 +56,7 @@ TEST_P(FreeFemForms, MatricesAndLoadAgreeEntryByEntry) {
   EXPECT_LE(largest(SparseMatrix(a0 - theirs.a0)), 1e-12 * largest(a0));
   EXPECT_LE((ours.load - theirs.load).cwiseAbs().maxCoeff(), 1e-12 * ours.load.cwiseAbs().maxCoeff());
   EXPECT_EQ(ours.dirichlet_dofs, theirs.clamped);
-  EXPECT_EQ(ours.contact, theirs.contact);
+  EXPECT_EQ(ours.bounds.unknowns, theirs.contact);
 }
 INSTANTIATE_TEST_SUITE_P(FreeFem, FreeFemForms, ::testing::ValuesIn(settings),
                          [](const auto& info) { return info.param.name(); });
@@ -93,7 +93,7 @@ TEST_P(Solutions, WithContactAgreeInValuesContactSetAndEnergy) {
   if (setting.locks() && epsilon <= 1e-6) {
     // The layer does not move: every gap is 0 to the tolerance of 1e-10 times the largest |u|, with or without a
     // contact force (at epsilon = 0 exactly, and the forces are not unique), so there is no contact set to compare.
-    EXPECT_LE(ours.u(problem.contact).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LE(ours.u(problem.bounds.unknowns).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_LE(theirs.gap.cwiseAbs().maxCoeff(), 1e-9);
   } else {
     EXPECT_EQ(comparison.contact_disagree, 0);

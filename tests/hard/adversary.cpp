@@ -76,6 +76,7 @@ VariationalInequality random_problem(unsigned seed) {
   });
   if (dice.one_in(12)) problem.load(dice.below(n)) = -std::pow(10.0, 18 * dice.uniform());
   const double far = dice.decades(of_bounds);
+  std::vector<int> bounded;
   std::vector<double> values, lower;
   for (int i = 0; i < n; ++i) {
     const int role = dice.below(6);
@@ -84,12 +85,13 @@ VariationalInequality random_problem(unsigned seed) {
       problem.dirichlet_dofs.push_back(i);
       values.push_back(dice.one_in(2) ? 0 : value);
     } else if (role < 4) {
-      problem.contact.push_back(i);
+      bounded.push_back(i);
       lower.push_back(dice.one_in(3) ? 0 : dice.one_in(2) ? -std::abs(value) : value);
     }
   }
   problem.dirichlet_values = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  problem.lower = Eigen::Map<Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size()));
+  problem.bounds =
+      Bounds::lower_on(bounded, Eigen::Map<Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size())));
   problem.a1.makeCompressed();
   problem.b.makeCompressed();
   return problem;
@@ -100,21 +102,23 @@ VariationalInequality random_bounds(unsigned seed) {
   Dice dice(seed ^ 0x5bd1e995u);
   const int n = problem.size();
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const double scale = problem.lower.size() > 0 ? std::max(problem.lower.cwiseAbs().maxCoeff(), 1e-3) : 1.0;
-  std::vector<double> lower(problem.lower.begin(), problem.lower.end()), upper(lower.size(), infinity);
+  const double scale =
+      problem.bounds.lower.size() > 0 ? std::max(problem.bounds.lower.cwiseAbs().maxCoeff(), 1e-3) : 1.0;
+  std::vector<double> lower(problem.bounds.lower.begin(), problem.bounds.lower.end()), upper(lower.size(), infinity);
   // a handful of bounds in all: rational arithmetic tries every set of them
-  const int most = 6 - static_cast<int>(problem.contact.size());
+  const int most = 6 - static_cast<int>(problem.bounds.unknowns.size());
   const int rows = problem.free_count() > 0 && !dice.one_in(4) ? std::min(most, dice.below(3)) : 0;
   // most rows keep an unknown to themselves
   for (int row = 0; row < rows && !dice.one_in(10); ++row)
-    if (std::ssize(problem.contact) + std::ssize(problem.dirichlet_dofs) + row >= n && !problem.contact.empty()) {
-      problem.contact.pop_back();
-      lower.erase(lower.begin() + std::ssize(problem.contact));
+    if (std::ssize(problem.bounds.unknowns) + std::ssize(problem.dirichlet_dofs) + row >= n &&
+        !problem.bounds.unknowns.empty()) {
+      problem.bounds.unknowns.pop_back();
+      lower.erase(lower.begin() + std::ssize(problem.bounds.unknowns));
       upper.pop_back();
     }
   std::set<int> loose;  // neither fixed nor bounded
   for (int j = 0; j < n; ++j) loose.insert(j);
-  for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.contact})
+  for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.bounds.unknowns})
     for (const int j : *list) loose.erase(j);
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < rows; ++row) {
@@ -137,8 +141,8 @@ VariationalInequality random_bounds(unsigned seed) {
     lower.push_back(dice.one_in(3) ? 0 : dice.one_in(2) ? -std::abs(value) : value);
     upper.push_back(infinity);
   }
-  problem.constraints.resize(rows, n);
-  problem.constraints.setFromTriplets(entries.begin(), entries.end());
+  RowMatrix constraints(rows, n);
+  constraints.setFromTriplets(entries.begin(), entries.end());
   for (std::size_t i = 0; i < lower.size(); ++i) {
     const double size = lower[i] != 0 ? std::abs(lower[i]) : scale;
     const int kind = dice.below(6);
@@ -149,39 +153,38 @@ VariationalInequality random_bounds(unsigned seed) {
       upper[i] = lower[i] + (dice.one_in(6) ? 0 : size * few_digits(dice.uniform()) * (dice.one_in(4) ? 1e-8 : 1));
     }
   }
-  problem.lower = Eigen::Map<Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size()));
-  if (!dice.one_in(8) || std::count(upper.begin(), upper.end(), infinity) != static_cast<int>(upper.size()))
-    problem.upper = Eigen::Map<Eigen::VectorXd>(upper.data(), static_cast<Eigen::Index>(upper.size()));
+  const auto given = [](const std::vector<double>& limits) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(limits.data(), static_cast<Eigen::Index>(limits.size())));
+  };
+  problem.bounds = {problem.bounds.unknowns, {given(lower), given(upper)}, constraints};
   return problem;
 }
 
 VariationalInequality random_friction(unsigned seed) {
   VariationalInequality problem = random_bounds(seed);
   Dice dice(seed ^ 0x2545f491u);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto rows = std::min<Eigen::Index>(problem.constraints.rows(), 4);
-  const auto contact = std::min(std::ssize(problem.contact), 4 - rows), before = std::ssize(problem.contact);
+  const auto rows = std::min<Eigen::Index>(problem.bounds.constraints.rows(), 4);
+  const auto contact = std::min(std::ssize(problem.bounds.unknowns), 4 - rows),
+             before = std::ssize(problem.bounds.unknowns);
   const auto kept = [&](const Eigen::VectorXd& bound) {
     Eigen::VectorXd some(contact + rows);
     some << bound.head(contact), bound.segment(before, rows);
     return some;
   };
-  problem.constraints = RowMatrix(problem.constraints.topRows(rows));
-  if (problem.upper.size() > 0) problem.upper = kept(problem.upper);
-  problem.lower = kept(problem.lower);
-  problem.contact.resize(contact);
-  const Eigen::Index bounds = contact + rows;
-  if (problem.upper.size() == 0) problem.upper = Eigen::VectorXd::Constant(bounds, infinity);
-  problem.force_limit = Eigen::VectorXd::Constant(bounds, infinity);
+  std::vector<int> unknowns = problem.bounds.unknowns;
+  unknowns.resize(contact);
+  const RowMatrix constraints = problem.bounds.constraints.topRows(rows);
+  problem.bounds = {unknowns, {kept(problem.bounds.lower), kept(problem.bounds.upper)}, constraints};
+  Eigen::VectorXd &lower = problem.bounds.lower, &upper = problem.bounds.upper;
   const double size = std::max(problem.load.lpNorm<Eigen::Infinity>(), 1e-6);
-  for (Eigen::Index i = 0; i < bounds; ++i) {
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
     if (dice.one_in(4)) continue;
-    if (!dice.one_in(3)) problem.lower(i) = problem.upper(i) = dice.one_in(3) ? std::min(problem.lower(i), 1e3) : 0;
-    if (std::isinf(problem.lower(i)) && std::isinf(problem.upper(i))) problem.lower(i) = problem.upper(i) = 0;
-    problem.force_limit(i) = dice.one_in(10)  ? 0
-                             : dice.one_in(4) ? std::abs(problem.load(dice.below(problem.size())))
-                             : dice.one_in(2) ? few_digits(dice.uniform()) * size
-                                              : dice.decades(6) * size;
+    if (!dice.one_in(3)) lower(i) = upper(i) = dice.one_in(3) ? std::min(lower(i), 1e3) : 0;
+    if (std::isinf(lower(i)) && std::isinf(upper(i))) lower(i) = upper(i) = 0;
+    problem.bounds.force_limit(i) = dice.one_in(10)  ? 0
+                                    : dice.one_in(4) ? std::abs(problem.load(dice.below(problem.size())))
+                                    : dice.one_in(2) ? few_digits(dice.uniform()) * size
+                                                     : dice.decades(6) * size;
   }
   return problem;
 }

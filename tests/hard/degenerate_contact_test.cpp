@@ -93,9 +93,9 @@ TEST_P(Degenerate, GrazingContactHasTheFreeSolutionAndNoForce) {
   const Solution free = active_set(problem(space_, paper_load, std::nullopt));
   for (const double nudge : {0.0, 1e-16, -1e-16, 1e-13, -1e-13}) {
     VariationalInequality grazing = problem(space_, paper_load);
-    for (Eigen::Index i = 0; i < grazing.lower.size(); ++i) {
-      const double x = space_.dof_coordinates()(grazing.contact[i], 0), u = free.u(grazing.contact[i]);
-      grazing.lower(i) = x > 0.3 && x < 0.8 ? u + nudge : u - 1;
+    for (Eigen::Index i = 0; i < grazing.bounds.lower.size(); ++i) {
+      const double x = space_.dof_coordinates()(grazing.bounds.unknowns[i], 0), u = free.u(grazing.bounds.unknowns[i]);
+      grazing.bounds.lower(i) = x > 0.3 && x < 0.8 ? u + nudge : u - 1;
     }
     const Solution s = proved(grazing);
     EXPECT_LT(test::relative_difference(s.u, free.u), 1e-9) << nudge;
@@ -143,7 +143,7 @@ TEST_P(Degenerate, TheAnswerScalesWithTheLoadBitForBit) {
       VariationalInequality scaled = one;
       const double factor = std::ldexp(1.0, exponent);
       scaled.load *= factor;
-      scaled.lower *= factor;
+      scaled.bounds.lower *= factor;
       const Solution s = active_set(scaled);
       EXPECT_EQ(s.u, factor * unit.u) << exponent;
       EXPECT_EQ(s.lambda, factor * unit.lambda) << exponent;
@@ -172,7 +172,7 @@ TEST_P(Degenerate, ObstaclesAwayPressedInAndUneven) {
 TEST_P(Degenerate, TheWorstStartsEndInTheSameAnswer) {
   const VariationalInequality paper = problem(space_, paper_load);
   const Solution best = proved(paper);
-  const std::size_t c = paper.contact.size();
+  const std::size_t c = paper.bounds.unknowns.size();
   std::vector<bool> alternating(c), opposite = best.active;
   for (std::size_t i = 0; i < c; ++i) alternating[i] = i % 2 == 0;
   opposite.flip();
@@ -237,7 +237,7 @@ class Watched : public ContactSystem {
     w_.resize(0);  // asked again of the same w: how far to go
     return system_.energy_norm_squared(way);
   }
-  BoundStatuses nested_start(const Bounds& bounds, int max_iterations) override {
+  BoundStatuses nested_start(const ShiftedBounds& bounds, int max_iterations) override {
     return system_.nested_start(bounds, max_iterations);
   }
   mutable std::vector<Eigen::VectorXd> from;
@@ -269,7 +269,7 @@ TEST(Cycling, RandomComplementarityProblemsAllEnd) {
     for (const bool start : {false, true})
       for (ContactSystem* system : {static_cast<ContactSystem*>(&watched), static_cast<ContactSystem*>(&sparse)}) {
         const ContactResult answer = solve_contact(
-            *system, {lower}, BoundStatuses(n, start ? BoundStatus::at_lower : BoundStatus::inactive), 500);
+            *system, BoundLimits(lower), BoundStatuses(n, start ? BoundStatus::at_lower : BoundStatus::inactive), 500);
         most = std::max(most, answer.steps);
         // relative to the condition number, 1e7 at most: 64 round-offs of S v moved by S^-1
         const double v_scale = answer.v.lpNorm<Eigen::Infinity>(), f_scale = s.cwiseAbs().maxCoeff() * v_scale + 1;
@@ -300,7 +300,8 @@ TEST(Cycling, APullFarBelowTheForcesLetsGo) {
     ASSERT_FALSE(k.factorise(Eigen::MatrixXd(s.triangularView<Eigen::Upper>()).sparseView()));
     SparseContact sparse(k, q, {0, 1});
     for (ContactSystem* system : {static_cast<ContactSystem*>(&dense), static_cast<ContactSystem*>(&sparse)})
-      EXPECT_NEAR(solve_contact(*system, {lower}, BoundStatuses(2, BoundStatus::at_lower), 10).v(0), off / 2, 1e-15);
+      EXPECT_NEAR(solve_contact(*system, BoundLimits(lower), BoundStatuses(2, BoundStatus::at_lower), 10).v(0), off / 2,
+                  1e-15);
   }
 }
 
@@ -308,11 +309,11 @@ TEST(Cycling, TheCapIsAFailure) {
   const Eigen::MatrixXd s = Eigen::MatrixXd::Identity(4, 4);
   const Eigen::VectorXd q = Eigen::Vector4d(1, -1, 1, -1), lower = Eigen::Vector4d::Zero();
   SchurComplementContact system(s, q);
-  const auto failure =
-      test::thrown<NotConverged>([&] { solve_contact(system, {lower}, BoundStatuses(4, BoundStatus::inactive), 1); });
+  const auto failure = test::thrown<NotConverged>(
+      [&] { solve_contact(system, BoundLimits(lower), BoundStatuses(4, BoundStatus::inactive), 1); });
   EXPECT_EQ(failure.steps, 1);
   EXPECT_DOUBLE_EQ(failure.reached, 0.5);
-  EXPECT_EQ(solve_contact(system, {lower}, BoundStatuses(4, BoundStatus::inactive), 2).steps, 2);
+  EXPECT_EQ(solve_contact(system, BoundLimits(lower), BoundStatuses(4, BoundStatus::inactive), 2).steps, 2);
 }
 
 }  // namespace antilock::hard::degenerate_contact_test

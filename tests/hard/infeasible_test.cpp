@@ -17,7 +17,7 @@ VariationalInequality beam(ShearIntegration shear) {
 /// The obstacle lifts the beam by a tenth: with full integration it cannot bend.
 VariationalInequality lifted_beam(ShearIntegration shear) {
   VariationalInequality problem = beam(shear);
-  problem.lower.setConstant(0.1);
+  problem.bounds.lower.setConstant(0.1);
   return problem;
 }
 /// The clamps turn both ends the same way, and hold them at one height: theta = w' = 1 cannot be.

@@ -24,8 +24,8 @@ double down(double, double) { return -10; }
 /// A chain of n unknowns, all of them pulled by 1 and held at 0 by a friction of g.
 VariationalInequality rubbing_chain(int n, double g) {
   VariationalInequality problem = small_problem(chain(n), Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n));
-  problem.upper = problem.lower;
-  problem.force_limit = Eigen::VectorXd::Constant(n, g);
+  problem.bounds.upper = problem.bounds.lower;
+  problem.bounds.force_limit = Eigen::VectorXd::Constant(n, g);
   return problem;
 }
 
@@ -41,8 +41,8 @@ TEST(InterfaceMisuse, FrictionMayBearFarMoreThanTheForces) {
   for (const double g : {10.0, 1e10, 1e15, 1e300}) {
     EXPECT_EQ(active_set(rubbing_chain(5, g)).u.lpNorm<Eigen::Infinity>(), 0) << g;
     VariationalInequality two_sided = rubbing_chain(5, g);
-    two_sided.lower.setConstant(-0.3);
-    two_sided.upper.setConstant(0.4);
+    two_sided.bounds.lower.setConstant(-0.3);
+    two_sided.bounds.upper.setConstant(0.4);
     // it ends with a step of 1e-10 |u|, from which the error differs by its contraction
     EXPECT_LT((uzawa(two_sided).u.array() - 0.4).abs().maxCoeff(), 1e-9) << g;
   }

@@ -233,7 +233,8 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
       for (TaggedEdge& e : tagged) e = {vertex[e.to], vertex[e.from], e.tag};
       const Space other(make_triangle_mesh(vertices, triangles, region, tagged, "shuffled"), chosen());
       VariationalInequality problem = stiff_problem(other, epsilon);
-      std::shuffle(problem.contact.begin(), problem.contact.end(), random);  // out of order they only cost steps
+      // out of order they only cost steps
+      std::shuffle(problem.bounds.unknowns.begin(), problem.bounds.unknowns.end(), random);
       const Solution s = active_set(problem);
       ASSERT_EQ(other.size(), space.size());
       double worst = 0;

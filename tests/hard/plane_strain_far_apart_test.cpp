@@ -154,10 +154,8 @@ RealMatrix assembled(const Block& block, const VectorSpace& space) {
 /// settle.
 RealVector exact_solution(const VariationalInequality& problem, const RealMatrix& k, BoundStatuses status) {
   const RealVector load = problem.load.cast<Real>();
-  status.resize(problem.contact.size(), BoundStatus::inactive);
-  const auto most = [&](std::size_t i) {
-    return problem.force_limit.size() > 0 ? problem.force_limit(Eigen::Index(i)) : test::infinity;
-  };
+  status.resize(problem.bounds.unknowns.size(), BoundStatus::inactive);
+  const auto most = [&](std::size_t i) { return problem.bounds.force_limit(Eigen::Index(i)); };
   for (int sets = 0; sets < 200; ++sets) {
     RealVector u = RealVector::Zero(problem.size()), pull = load;
     std::vector<char> held(problem.size(), 0);
@@ -166,10 +164,10 @@ RealVector exact_solution(const VariationalInequality& problem, const RealMatrix
       u(problem.dirichlet_dofs[i]) = problem.dirichlet_values(Eigen::Index(i));
     }
     for (std::size_t i = 0; i < status.size(); ++i) {
-      const int c = problem.contact[i];
+      const int c = problem.bounds.unknowns[i];
       if (is_active(status[i])) {
         held[c] = 1;
-        u(c) = problem.lower(Eigen::Index(i));
+        u(c) = problem.bounds.lower(Eigen::Index(i));
       }
       if (status[i] == BoundStatus::slip_below) pull(c) += most(i);
       if (status[i] == BoundStatus::slip_above) pull(c) -= most(i);
@@ -192,9 +190,9 @@ RealVector exact_solution(const VariationalInequality& problem, const RealMatrix
     const Real near_u = Real("1e-20") * largest_u, near_force = Real("1e-20") * size;
     bool settled = true;
     for (std::size_t i = 0; i < status.size(); ++i) {
-      const int c = problem.contact[i];
-      const bool sticks = problem.upper.size() > 0 && problem.upper(Eigen::Index(i)) == problem.lower(Eigen::Index(i));
-      const Real above = u(c) - Real(problem.lower(Eigen::Index(i)));
+      const int c = problem.bounds.unknowns[i];
+      const bool sticks = problem.bounds.is_equation(static_cast<int>(i));
+      const Real above = u(c) - Real(problem.bounds.lower(Eigen::Index(i)));
       BoundStatus next = status[i];
       if (is_active(status[i])) {
         if (std::isfinite(most(i)) && force(c) > Real(most(i)) + near_force) next = BoundStatus::slip_below;

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "antilock/problem/bounds.hpp"
+#include "antilock/problem/variational_inequality.hpp"
 
 namespace antilock::hard {
 namespace {
@@ -75,12 +75,12 @@ QuadSolution refine(const VariationalInequality& problem, const std::vector<bool
     add_product(dp, problem.b, du);
     s.p += dp / Quad(delta);
   }
-  s.lambda = QuadVector::Zero(static_cast<Eigen::Index>(problem.contact.size()));
+  s.lambda = QuadVector::Zero(static_cast<Eigen::Index>(problem.bounds.unknowns.size()));
   Quad min_gap = 0, min_pressure = 0;
-  for (std::size_t i = 0; i < problem.contact.size(); ++i) {
+  for (std::size_t i = 0; i < problem.bounds.unknowns.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    if (active[i]) s.lambda(k) = -r1(problem.contact[i]);
-    min_gap = std::min<Quad>(min_gap, s.u(problem.contact[i]) - Quad(problem.lower(k)));
+    if (active[i]) s.lambda(k) = -r1(problem.bounds.unknowns[i]);
+    min_gap = std::min<Quad>(min_gap, s.u(problem.bounds.unknowns[i]) - Quad(problem.bounds.lower(k)));
     min_pressure = std::min<Quad>(min_pressure, s.lambda(k));
   }
   s.min_gap = static_cast<double>(min_gap / std::max<Quad>(largest(s.u), Quad(1e-300)));
@@ -155,8 +155,8 @@ QuadSolution settle(const VariationalInequality& problem, std::vector<bool> acti
                pressure_slack = Quad(1e-18) * largest(problem.load.cast<Quad>());
     for (std::size_t i = 0; i < active.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      const bool wrong =
-          active[i] ? s.lambda(k) < -pressure_slack : s.u(problem.contact[i]) - Quad(problem.lower(k)) < -gap_slack;
+      const bool wrong = active[i] ? s.lambda(k) < -pressure_slack
+                                   : s.u(problem.bounds.unknowns[i]) - Quad(problem.bounds.lower(k)) < -gap_slack;
       if (wrong) active[i] = !active[i];
     }
   }

@@ -59,14 +59,14 @@ TEST(AdversaryLists, HaveBoundsOfEveryShape) {
   int two_sided = 0, combined = 0, slips = 0, sticks = 0;
   for (unsigned seed = 0; seed < 250; ++seed) {
     const VariationalInequality shapes = random_bounds(seed), friction = random_friction(seed);
-    two_sided += shapes.upper.size() > 0;
-    combined += shapes.constraints.rows() > 0;
+    two_sided += shapes.bounds.has_upper_bounds();
+    combined += shapes.bounds.constraints.rows() > 0;
     const test::ExactAnswer exact = test::exact_answer(friction);
     if (exact.what != test::Exactly::solved) continue;
-    const Eigen::VectorXd values = bounded_values(friction, exact.u);
+    const Eigen::VectorXd values = bounded_values(friction.bounds, exact.u);
     for (Eigen::Index i = 0; i < values.size(); ++i)
-      if (std::isfinite(friction.force_limit(i)) && friction.lower(i) == friction.upper(i))
-        ++(values(i) == friction.lower(i) ? sticks : slips);
+      if (std::isfinite(friction.bounds.force_limit(i)) && friction.bounds.lower(i) == friction.bounds.upper(i))
+        ++(values(i) == friction.bounds.lower(i) ? sticks : slips);
   }
   EXPECT_GT(two_sided, 150);
   EXPECT_GT(combined, 80);
@@ -78,8 +78,8 @@ TEST(AdversaryLists, HaveBoundsOfEveryShape) {
 VariationalInequality mirrored(VariationalInequality problem) {
   problem.load *= -1;
   problem.dirichlet_values *= -1;
-  problem.upper = -problem.lower;
-  problem.lower.setConstant(-infinity);
+  problem.bounds.upper = -problem.bounds.lower;
+  problem.bounds.lower.setConstant(-infinity);
   return problem;
 }
 
@@ -89,11 +89,11 @@ TEST(NothingInSilence, AGreatLoadOnAnUnknownInContactHidesNothing) {
   for (const double load : {1e8, 1e11, 1e14, 1e18, 1e25}) {
     const VariationalInequality problem = small_problem(a1, Eigen::Vector2d(-load, -7), Eigen::Vector2d(-0.5, -0.1));
     for (const Solution& s : {active_set(problem), uzawa(problem)})
-      EXPECT_LT((s.u - problem.lower).lpNorm<Eigen::Infinity>(), 1e-9) << s.solver << load;
+      EXPECT_LT((s.u - problem.bounds.lower).lpNorm<Eigen::Infinity>(), 1e-9) << s.solver << load;
     VariationalInequality above = mirrored(problem);
-    above.lower(0) = -1;
+    above.bounds.lower(0) = -1;
     for (const Solution& s : {active_set(above), uzawa(above)})
-      EXPECT_LT((s.u - above.upper).lpNorm<Eigen::Infinity>(), 1e-9) << s.solver << load;
+      EXPECT_LT((s.u - above.bounds.upper).lpNorm<Eigen::Infinity>(), 1e-9) << s.solver << load;
   }
 }
 
@@ -105,7 +105,7 @@ TEST(NothingInSilence, WhatNoUCanMeetIsRefusedUnderAnyLoad) {
         const Eigen::Vector3d force = sign * load * Eigen::Vector3d::Unit(at) + Eigen::Vector3d::Constant(0.1);
         VariationalInequality problem =
             small_problem(chain(3), force, Eigen::Vector2d(0.05, -1), Eigen::RowVector3d(1, 0, 0), 0);
-        problem.contact[1] = 2;
+        problem.bounds.unknowns[1] = 2;
         // by the certificate: a refusal after all corrections begins otherwise
         test::expect_refused([&] { active_set(problem); }, "active set: infeasible: after");
         test::expect_refused([&] { active_set(mirrored(problem)); }, "active set: infeasible: after");
@@ -233,14 +233,14 @@ TEST(NothingInSilence, AFactorMadeBeforeSkipsNoCheck) {
     expect_refused([&] { factor.check_fits(bad); }, words);
   };
   using P = VariationalInequality;
-  refused([](P& p) { p.lower.conservativeResize(1); }, "one bound per contact unknown");
-  refused([](P& p) { p.lower.resize(0); }, "one bound per contact unknown");
+  refused([](P& p) { p.bounds.lower.conservativeResize(1); }, "one bound per contact unknown");
+  refused([](P& p) { p.bounds.lower.resize(0); }, "one bound per contact unknown");
   refused([](P& p) { p.m.resize(0); }, "M has");
   refused([](P& p) { p.load.conservativeResize(2); }, "a1 is");
   refused([](P& p) { p.compliance = -1; }, "compliance");
   refused([](P& p) { p.m(0) = -1; }, "M is not positive");
-  refused([](P& p) { p.lower(1) = nan; }, "not finite");
-  refused([](P& p) { p.contact[0] = 7; }, "out of range");
+  refused([](P& p) { p.bounds.lower(1) = nan; }, "not finite");
+  refused([](P& p) { p.bounds.unknowns[0] = 7; }, "out of range");
   refused([](P& p) { p.a1.coeffRef(0, 1) = 5; }, "another A1, B or M");
   refused([](P& p) { p.b.coeffRef(0, 0) = 2; }, "another A1, B or M");
   refused([](P& p) { p.m(0) = 2; }, "another A1, B or M");
@@ -254,7 +254,7 @@ TEST(NothingInSilence, TheReportPassesOverNothing) {
   const VariationalInequality problem = pulled_chain();
   const Solution right = active_set(problem);
   VariationalInequality unknown = problem;
-  unknown.lower(0) = nan;
+  unknown.bounds.lower(0) = nan;
   expect_refused([&] { kkt_report(unknown, right); }, "not finite");
   Solution wrong = right;
   wrong.lambda.conservativeResize(1);

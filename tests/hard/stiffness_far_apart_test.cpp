@@ -88,7 +88,7 @@ RealMatrix assembled(const Question& q, const Space& space) {
 
 /// u of the scene with 60 digits: sets of contact are exchanged from `active` on. Empty where they do not settle.
 RealVector exact_solution(const VariationalInequality& problem, const RealMatrix& k, std::vector<bool> active) {
-  active.resize(problem.contact.size(), false);
+  active.resize(problem.bounds.unknowns.size(), false);
   for (int sets = 0; sets < 200; ++sets) {
     RealVector u = RealVector::Zero(problem.size());
     std::vector<char> fixed_at(problem.size(), 0);
@@ -98,8 +98,8 @@ RealVector exact_solution(const VariationalInequality& problem, const RealMatrix
     }
     for (std::size_t i = 0; i < active.size(); ++i)
       if (active[i]) {
-        fixed_at[problem.contact[i]] = 1;
-        u(problem.contact[i]) = problem.lower(Eigen::Index(i));
+        fixed_at[problem.bounds.unknowns[i]] = 1;
+        u(problem.bounds.unknowns[i]) = problem.bounds.lower(Eigen::Index(i));
       }
     std::vector<int> free;
     for (int i = 0; i < problem.size(); ++i)
@@ -120,9 +120,9 @@ RealVector exact_solution(const VariationalInequality& problem, const RealMatrix
     size = std::max<Real>(size, problem.load.lpNorm<Eigen::Infinity>());
     bool settled = true;
     for (std::size_t i = 0; i < active.size(); ++i) {
-      const int c = problem.contact[i];
+      const int c = problem.bounds.unknowns[i];
       const bool wrong = active[i] ? force(c) < -Real("1e-25") * size
-                                   : u(c) - Real(problem.lower(Eigen::Index(i))) < -Real("1e-25") * largest_u;
+                                   : u(c) - Real(problem.bounds.lower(Eigen::Index(i))) < -Real("1e-25") * largest_u;
       if (!wrong || (sets > 60 && !settled)) continue;  // in the end one by one
       settled = false;
       active[i] = !active[i];

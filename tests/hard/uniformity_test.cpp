@@ -6,7 +6,7 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/exact/exact_table.hpp"
-#include "antilock/problem/bounds.hpp"
+#include "antilock/problem/variational_inequality.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
@@ -178,7 +178,7 @@ TEST(Formulations, EpsilonZeroIsTheProblemOnTheKernelOfA0) {
     u(ordering.dof) = z * y;
     // 1e-10 is the solver's tolerance; the projected problem itself carries about 1e-13
     EXPECT_LT((solution.u - u).lpNorm<Eigen::Infinity>() / u.lpNorm<Eigen::Infinity>(), 1e-9);
-    EXPECT_GE(u(problem.contact).minCoeff(), -1e-12);
+    EXPECT_GE(u(problem.bounds.unknowns).minCoeff(), -1e-12);
     EXPECT_LT((problem.b * solution.u).lpNorm<Eigen::Infinity>() * mesh.diameter(), 1e-9);
   }
 }

@@ -33,7 +33,8 @@ TEST_P(WrongAnswers, EveryKindOfWrongAnswerIsRefused) {
   constexpr double inf = test::infinity, nan = test::nan;
   const std::vector<std::pair<std::string, std::function<void(Solution&)>>> faults{
       {"one unknown in the body moved", [&](Solution& s) { s.u(space_.size() - 1) += 1e-2 * u_scale; }},
-      {"one unknown in contact moved", [&](Solution& s) { s.u(problem_.contact[first(false)]) += 1e-3 * u_scale; }},
+      {"one unknown in contact moved",
+       [&](Solution& s) { s.u(problem_.bounds.unknowns[first(false)]) += 1e-3 * u_scale; }},
       {"every unknown scaled", [](Solution& s) { s.u *= 1 + 1e-4; }},
       {"no answer at all", [](Solution& s) { s.u.setZero(), s.p.setZero(), s.lambda.setZero(); }},
       {"a locked layer",
@@ -49,7 +50,7 @@ TEST_P(WrongAnswers, EveryKindOfWrongAnswerIsRefused) {
       {"contact forces forgotten", [](Solution& s) { s.lambda.setZero(); }},
       {"a contact that pulls", [&](Solution& s) { s.lambda(first(true)) = -0.1 * f_scale; }},
       {"a force across a gap", [&](Solution& s) { s.lambda(first(false)) = 0.1 * f_scale; }},
-      {"through the obstacle", [&](Solution& s) { s.u(problem_.contact[first(true)]) = -0.01 * u_scale; }},
+      {"through the obstacle", [&](Solution& s) { s.u(problem_.bounds.unknowns[first(true)]) = -0.01 * u_scale; }},
       {"a clamp that slips", [&](Solution& s) { s.u(problem_.dirichlet_dofs[3]) = 1e-12; }},
       {"not a number in u", [&](Solution& s) { s.u(7) = nan; }},
       {"not a number in p", [&](Solution& s) { s.p(7) = nan; }},
@@ -104,7 +105,7 @@ TEST_P(WrongAnswers, TheReportDoesNotSeeTheScaleOfTheLoad) {
       const double factor = std::ldexp(1.0, exponent);
       VariationalInequality problem = problem_;
       problem.load *= factor;
-      problem.lower *= factor;
+      problem.bounds.lower *= factor;
       Solution scaled = answer;
       scaled.u *= factor, scaled.p *= factor, scaled.lambda *= factor, scaled.penalised_max_u *= factor;
       const Kkt other = kkt_report(problem, scaled);
@@ -157,8 +158,7 @@ VariationalInequality impossible(double far, double unit) {
   problem.load = Eigen::VectorXd::Constant(6, 0.01);
   problem.dirichlet_dofs = {0};
   problem.dirichlet_values = Eigen::VectorXd::Zero(1);
-  problem.contact = {1, 3};
-  problem.lower = Eigen::Vector2d(0.1, far);
+  problem.bounds = Bounds::lower_on({1, 3}, Eigen::Vector2d(0.1, far));
   return problem;
 }
 
@@ -176,7 +176,7 @@ TEST(Impossible, IsSeenBesideAFarBoundAndInAnyUnits) {
 TEST(Impossible, AFarBoundDoesNotHideABrokenCompliance) {
   for (const double far : {0.0, -1e3, -1e6, -1e9}) {
     VariationalInequality problem = impossible(far, 1);
-    problem.lower(0) = -1;
+    problem.bounds.lower(0) = -1;
     Solution foreign;  // of the problem without B: p = 0 although B u is not
     VariationalInequality soft = problem;
     soft.b.resize(0, 6);

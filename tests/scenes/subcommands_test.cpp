@@ -237,7 +237,7 @@ TEST_F(Subcommand, LockcheckDiagnosesAndSolvesMatrices) {
     fixed << "unknown,value\n";
     for (const int i : problem.dirichlet_dofs) fixed << i << ",0\n";
     bounds << "unknown,lower\n";
-    for (const int i : problem.contact) bounds << i << ",0\n";
+    for (const int i : problem.bounds.unknowns) bounds << i << ",0\n";
     return active_set([&] {
       VariationalInequality limit = problem;
       limit.compliance = 0;

@@ -68,20 +68,16 @@ BruteForce brute_force(const VariationalInequality& problem) {
   if (!basis.isZero(0))
     response = basis * LongMatrix(basis.transpose() * k(free, free) * basis).ldlt().solve(basis.transpose());
 
-  const int c = problem.bound_count(), contact = static_cast<int>(problem.contact.size());
+  const int c = problem.bounds.count(), contact = static_cast<int>(problem.bounds.unknowns.size());
   LongMatrix rows = LongMatrix::Zero(c, problem.size());  // what is bounded
-  for (int i = 0; i < contact; ++i) rows(i, problem.contact[i]) = 1;
-  if (c > contact) rows.bottomRows(c - contact) = Eigen::MatrixXd(problem.constraints).cast<long double>();
+  for (int i = 0; i < contact; ++i) rows(i, problem.bounds.unknowns[i]) = 1;
+  if (c > contact) rows.bottomRows(c - contact) = Eigen::MatrixXd(problem.bounds.constraints).cast<long double>();
   const LongMatrix on_free = rows(Eigen::all, free);
   const LongVector unloaded = rows * u_fixed + on_free * (response * force);
   const LongMatrix compliance = on_free * response * on_free.transpose();
-  const LongVector lower = problem.lower.cast<long double>();
-  const LongVector upper = problem.upper.size() > 0
-                               ? LongVector(problem.upper.cast<long double>())
-                               : LongVector(LongVector::Constant(c, std::numeric_limits<long double>::infinity()));
-  const LongVector most = problem.force_limit.size() > 0
-                              ? LongVector(problem.force_limit.cast<long double>())
-                              : LongVector(LongVector::Constant(c, std::numeric_limits<long double>::infinity()));
+  const LongVector lower = problem.bounds.lower.cast<long double>();
+  const LongVector upper = problem.bounds.upper.cast<long double>();
+  const LongVector most = problem.bounds.force_limit.cast<long double>();
   constexpr long double slack = 1e-14L;  // of a sign: far above the round-off of 64-bit mantissas, far below any gap
   BruteForce best;
   // 0: free, 1: at the lower bound, 2: at the upper one, 3: below the lower one, 4: above the upper one

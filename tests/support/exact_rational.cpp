@@ -259,14 +259,14 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
     }
   }
   std::vector<Side> sides;
-  const Eigen::MatrixXd constraints = problem.constraints;
-  for (int k = 0; k < problem.bound_count(); ++k) {
-    const int contact = static_cast<int>(problem.contact.size());
+  const Eigen::MatrixXd constraints = problem.bounds.constraints;
+  for (int k = 0; k < problem.bounds.count(); ++k) {
+    const int contact = static_cast<int>(problem.bounds.unknowns.size());
     Vector row(dimension, Number(0));
     Number start_value = 0;
     for (std::size_t i = 0; i < size; ++i) {
       const Number entry =
-          k < contact ? Number(static_cast<int>(i) == problem.contact[k]) : Number(constraints(k - contact, i));
+          k < contact ? Number(static_cast<int>(i) == problem.bounds.unknowns[k]) : Number(constraints(k - contact, i));
       if (entry == 0) continue;
       start_value += entry * u[i];
       if (place[i] < 0) continue;
@@ -276,12 +276,11 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
       if (std::isinf(value)) return;
       Side side{row, sign * (Number(value) - start_value), k, std::nullopt};
       for (Number& entry : side.c) entry *= sign;
-      if (problem.force_limit.size() > 0 && std::isfinite(problem.force_limit(k)))
-        side.most = Number(problem.force_limit(k));
+      if (std::isfinite(problem.bounds.force_limit(k))) side.most = Number(problem.bounds.force_limit(k));
       sides.push_back(side);
     };
-    add(1, problem.lower(k));
-    if (problem.upper.size() > 0) add(-1, problem.upper(k));
+    add(1, problem.bounds.lower(k));
+    add(-1, problem.bounds.upper(k));
   }
   const std::optional<Vector> z = minimise(h, g, sides);
   if (!z) return answer;

@@ -14,7 +14,8 @@ inline VariationalInequality membrane_over_obstacle(int n) {
   std::vector<Eigen::Triplet<double>> entries;
   VariationalInequality problem;
   problem.load = Eigen::VectorXd::Constant(size, -8 * h * h);
-  problem.lower.resize(size);
+  std::vector<int> all;
+  Eigen::VectorXd lower(size);
   for (int i = 0; i < m; ++i)
     for (int j = 0; j < m; ++j) {
       const int k = i * m + j;
@@ -24,12 +25,13 @@ inline VariationalInequality membrane_over_obstacle(int n) {
       if (j > 0) entries.emplace_back(k, k - 1, -1);
       if (j + 1 < m) entries.emplace_back(k, k + 1, -1);
       const double x = (j + 1) * h - 0.5, y = (i + 1) * h - 0.5;
-      problem.contact.push_back(k);
-      problem.lower(k) = -0.1 - 1.5 * (x * x + y * y);
+      all.push_back(k);
+      lower(k) = -0.1 - 1.5 * (x * x + y * y);
     }
   problem.a1.resize(size, size);
   problem.a1.setFromTriplets(entries.begin(), entries.end());
   problem.b.resize(0, size);
+  problem.bounds = Bounds::lower_on(all, lower);
   return problem;
 }
 

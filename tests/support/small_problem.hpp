@@ -1,4 +1,6 @@
 #pragma once
+#include <numeric>
+
 #include "antilock/problem/variational_inequality.hpp"
 
 namespace antilock::test {
@@ -13,8 +15,9 @@ inline VariationalInequality small_problem(const Eigen::MatrixXd& a1, const Eige
   problem.m = Eigen::VectorXd::Ones(b.rows());
   problem.compliance = compliance;
   problem.load = load;
-  for (int i = 0; i < lower.size(); ++i) problem.contact.push_back(i);
-  problem.lower = lower;
+  std::vector<int> first(static_cast<std::size_t>(lower.size()));
+  std::iota(first.begin(), first.end(), 0);
+  problem.bounds = Bounds::lower_on(first, lower);
   return problem;
 }
 

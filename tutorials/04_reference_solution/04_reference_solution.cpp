@@ -152,7 +152,7 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
     across = std::max(across, std::abs(fine.solution.u(i) - fine.solution.u(i + options.cells * (options.cells + 1))));
   report.claim(across <= 1.7 * epsilon * epsilon + 1e-13,
                "constant across the layer up to {:.0e} (proved: p is finite)", across);
-  const auto& c = fine.problem.contact;
+  const auto& c = fine.problem.bounds.unknowns;
   report.claim(fine.solution.u(c).minCoeff() >= 0, "nonnegative on Gamma_C (proved: u is in K_h)");
   const double from = contact_zone(fine).from.value_or(1);
   report.claim_within((from - exact.contact_from()) / h, -1, 1, "start of contact - truth, in cells (observed):");

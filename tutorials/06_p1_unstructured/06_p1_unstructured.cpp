@@ -126,8 +126,7 @@ VariationalInequality dirichlet_laplace(VariationalInequality problem, const Spa
     if (!(y > round && y < 1 - round && x > round && x < 1 - round)) problem.dirichlet_dofs.push_back(i);
   }
   problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
-  problem.contact.clear();
-  problem.lower.resize(0);
+  problem.bounds = {};
   problem.b.resize(0, problem.size());  // the layer is at rest: no stress to carry
   problem.m.resize(0);
   return problem;

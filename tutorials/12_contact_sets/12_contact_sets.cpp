@@ -117,10 +117,10 @@ struct Worst {
 };
 Worst worst_dip(const Space& space) {
   VariationalInequality problem = assemble(tutorial::paper_scene(0), space);
-  for (const int unknown : problem.contact) problem.dirichlet_dofs.push_back(unknown);
+  for (const int unknown : problem.bounds.unknowns) problem.dirichlet_dofs.push_back(unknown);
   std::sort(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end());
   problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
-  problem.contact.clear(), problem.lower.resize(0);
+  problem.bounds = {};
   const NegativePart part = negative_part(space, problem, h1_gram_matrix(space));
   const Eigen::MatrixX3d trace = contact_trace(space, part.worst);
   return {trace, part.constant, below(trace), part.worst(space.contact_dofs()).cwiseAbs().maxCoeff()};

@@ -80,8 +80,8 @@ using Eigen::VectorXd;
 // true but in the exercise.
 VectorXd cure(VariationalInequality problem, const std::vector<bool>& active, double delta, bool split = true) {
   for (std::size_t i = 0; i < active.size(); ++i)
-    if (active[i]) problem.dirichlet_dofs.push_back(problem.contact[i]);
-  problem.contact.clear();
+    if (active[i]) problem.dirichlet_dofs.push_back(problem.bounds.unknowns[i]);
+  problem.bounds = {};
   const DofOrdering free(problem);  // numbers what is neither clamped nor in contact
   const Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor(penalised_matrix(problem, free, delta));
   const SparseMatrix sum =

@@ -26,12 +26,12 @@ inline Table certify_uzawa(const Exact& exact) {
   Table rows({"steps", "quantity", "value"});
   for (int steps = 0, next = 1; steps <= 512; ++steps) {
     Eigen::VectorXd force = problem.load;
-    for (Eigen::Index i = 0; i < lambda.size(); ++i) force(problem.contact[i]) += lambda(i);
+    for (Eigen::Index i = 0; i < lambda.size(); ++i) force(problem.bounds.unknowns[i]) += lambda(i);
     now.u = Eigen::VectorXd::Zero(problem.size());
     now.u(free) = factor.cholesky().backward(factor.cholesky().forward(force(free)));
     now.p = problem.b * now.u / problem.compliance;
     for (Eigen::Index i = 0; i < lambda.size(); ++i)
-      lambda(i) = std::max(0.0, lambda(i) - rho * (now.u(problem.contact[i]) - problem.lower(i)));
+      lambda(i) = std::max(0.0, lambda(i) - rho * (now.u(problem.bounds.unknowns[i]) - problem.bounds.lower(i)));
     if (steps < next) continue;
     next *= 2;
     rows.add({steps, "bound", certify(scene, {space, problem, now}, {.factor = &factor}).gradient});

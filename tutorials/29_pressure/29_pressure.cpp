@@ -70,7 +70,7 @@
 
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/core/eigenvalues.hpp"
-#include "antilock/problem/bounds.hpp"
+#include "antilock/problem/variational_inequality.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -95,7 +95,7 @@ void move_by_gradients(const Mixed& way, bool on_fluxes, Table& worst, Table& by
   for (const int n : {8, 12, 16, 24}) {
     const Space space(tutorial::block(n), way.element);
     const VariationalInequality pressed = tutorial::rubber(way, space, 0);
-    Sweep sweep(equality_constrained(pressed, std::vector<bool>(pressed.contact.size())));
+    Sweep sweep(equality_constrained(pressed, std::vector<bool>(pressed.bounds.unknowns.size())));
     const Eigen::MatrixXd loads = tutorial::gradient_loads(space, n / 2, on_fluxes);
     const auto answer = [&](const Eigen::VectorXd& f) {
       sweep.set_load(loads * f);

@@ -13,7 +13,7 @@ const std::vector<tutorial::Exercise> exercises{
        const Space space(structured_mesh(n, Domain{0}), p1_bubble());  // the sides are clamped, and move with the top
        VariationalInequality problem = tutorial::rubber({"MINI", "", p1_bubble(), true}, space);
        // The mean of div u is 0, so that the bottom sinks by the push on average. It can sink by the groove:
-       const double groove = -problem.lower.sum() / (n - 1);
+       const double groove = -problem.bounds.lower.sum() / (n - 1);
        const auto push = [&](double share) {
          for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
            if (problem.dirichlet_dofs[i] >= space.size())
@@ -27,7 +27,7 @@ const std::vector<tutorial::Exercise> exercises{
          fmt::print("pushed by {:.0f} % of the groove: beta = {:.4f}\n", 100 * share, beta.back());
        }
        const VariationalInequality full =
-           equality_constrained(problem, std::vector<bool>(problem.contact.size(), true));
+           equality_constrained(problem, std::vector<bool>(problem.bounds.unknowns.size(), true));
        const double last = inf_sup(multiplier_gram(full, full.a1), Eigen::MatrixXd(full.m.asDiagonal()));
        report.claim(beta[3] < 0.5 * beta[0] && last == 0, "beta falls from {:.3f} to {:.3f}, with all held {:.0f}",
                     beta[0], beta[3], last);

@@ -3,7 +3,7 @@
 #include "antilock/form/quadrature.hpp"
 #include "antilock/io/write_vtu.hpp"
 #include "antilock/mesh/refine.hpp"
-#include "antilock/problem/bounds.hpp"
+#include "antilock/problem/variational_inequality.hpp"
 #include "antilock/study/sweep.hpp"
 #include "course/course.hpp"
 #include "course/rubber.hpp"
@@ -114,7 +114,7 @@ inline Table inf_sup_constants(const Mixed& way) {
   for (const int n : {4, 8, 12, 16}) {
     const TriangleMesh mesh = block(n);
     const VariationalInequality problem = rubber(way, Space(mesh, way.element));
-    const std::size_t bounds = problem.contact.size();
+    const std::size_t bounds = problem.bounds.unknowns.size();
     for (const auto& [held, marks] : {std::pair{"nothing", std::vector<bool>(bounds)},
                                       {"contact set", active_set(problem).active},
                                       {"all of Gamma_C", std::vector<bool>(bounds, true)}}) {

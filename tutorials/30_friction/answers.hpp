@@ -12,7 +12,7 @@ const std::vector<tutorial::Exercise> exercises{
        Sweep sweep(pressed(
            cr, {x, y}, [](double) { return 0; }, 1e-8));
        const auto count = static_cast<Eigen::Index>(y.contact_dofs().size());
-       Eigen::VectorXd normal = sweep.solve().lambda.head(count), bound = sweep.problem().force_limit;
+       Eigen::VectorXd normal = sweep.solve().lambda.head(count), bound = sweep.problem().bounds.force_limit;
        std::vector<double> changes;
        while (changes.size() < 6) {
          bound.tail(count) = 0.25 * normal;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include "antilock/io/write_vtu.hpp"
@@ -27,13 +28,14 @@ inline std::vector<TableEntry> floor_row(const Rubber& rubber, int cells, const 
       {1, {0.16034, -0.01627}}, {1e-4, {0.26073, 0.01222}}, {1e-8, {0.26077, 0.01223}}, {0, {0.26077, 0.01223}}};
   double normal = 0, tangential = 0, sticks = 0, slip = 0;
   for (Eigen::Index i = 0; i < solution.lambda.size(); ++i) {
-    if (!std::isfinite(problem.force_limit(i))) {
+    if (!std::isfinite(problem.bounds.force_limit(i))) {
       normal += solution.lambda(i);
       continue;
     }
-    const double place = x.dof_coordinates()(problem.contact[i], 0), moved = solution.u(problem.contact[i]);
+    const double place = x.dof_coordinates()(problem.bounds.unknowns[i], 0),
+                 moved = solution.u(problem.bounds.unknowns[i]);
     tangential += place == 0.5 ? 0 : (place < 0.5 ? 0.5 : -0.5) * solution.lambda(i);
-    if (problem.force_limit(i) == 0) continue;
+    if (problem.bounds.force_limit(i) == 0) continue;
     if (solution.active[i]) sticks += 1.0 / cells;
     if (place < 0.5 && std::abs(moved) > std::abs(slip)) slip = moved;
   }
@@ -76,7 +78,7 @@ inline Extremes extremes_of_friction(const std::function<VariationalInequality(c
   const auto zero = [](double) { return 0.0; };
   VariationalInequality bonded = pressed(great);
   const Eigen::VectorXd holds = active_set(bonded).u;
-  bonded.force_limit.resize(0);
+  bonded.bounds.force_limit.setConstant(std::numeric_limits<double>::infinity());
   return {(active_set(pressed(zero)).u - active_set(pressed({})).u).cwiseAbs().maxCoeff(),
           (holds - active_set(bonded).u).cwiseAbs().maxCoeff()};
 }
@@ -87,7 +89,7 @@ inline Eigen::MatrixX3d on_floor(const Space& in_x, const VariationalInequality&
   Eigen::MatrixX3d curves(lengths.size(), 3);
   curves.col(0) = in_x.dof_coordinates().col(0)(in_x.contact_dofs());
   curves.col(1) = solution.lambda.tail(lengths.size()).cwiseQuotient(lengths);
-  curves.col(2) = solution.u(problem.contact).tail(lengths.size());
+  curves.col(2) = solution.u(problem.bounds.unknowns).tail(lengths.size());
   return curves;
 }
 

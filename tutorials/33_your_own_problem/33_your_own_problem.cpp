@@ -84,9 +84,10 @@ void fill_glue(const Strings& s, Glue glue, VariationalInequality& problem) {
   problem.b = b.sparseView();
 }
 
-// With $A_1$, load, what is held and what is bounded from below, that is all that the solver sees. (Four more fields hold
-// bounds from above, bounds on sums, bounds that bear a given force only ([friction](../30_friction/30_friction.cpp)), and how many rows
-// of $B$ are rigid at every ε.)
+// With $A_1$, load, what is held and what is bounded from below, that is all that the solver
+// sees. (`Bounds` also holds bounds from above, bounds on sums, and bounds that bear a given force
+// only ([friction](../30_friction/30_friction.cpp)). One more field holds the compliances of those
+// rows of $B$ that do not vary with ε.)
 VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) {
   VariationalInequality problem;
   problem.a1 = sum_over_cells(s, 1, 0);
@@ -96,8 +97,9 @@ VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) 
   for (int i = 1; i < s.upper_cells(); ++i) problem.load(s.upper(i)) = -load / s.upper_cells();
   problem.dirichlet_dofs = {s.upper(0), s.upper(s.upper_cells()), s.lower(0), s.lower(s.cells)};
   problem.dirichlet_values = Eigen::VectorXd::Zero(4);
-  for (int i = 1; i < s.cells; ++i) problem.contact.push_back(s.lower(i));
-  problem.lower = Eigen::VectorXd::Constant(s.cells - 1, -gap);
+  std::vector<int> inside;
+  for (int i = 1; i < s.cells; ++i) inside.push_back(s.lower(i));
+  problem.bounds = Bounds::lower_on(inside, Eigen::VectorXd::Constant(s.cells - 1, -gap));
   return problem;
 }
 

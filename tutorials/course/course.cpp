@@ -76,7 +76,8 @@ void write_results(const std::filesystem::path& out, const Result& result) {
   write_freefem_mesh(out / "mesh.freefem.msh", space.mesh());
   write_solution_csv(out / "solution.csv", space, result.solution.u);
   write_vtu(out / "solution.vtu", space, result.solution.u);
-  if (!result.problem.contact.empty()) write_csv(out / "contact.csv", {"x", "gap", "pressure"}, contact_table(result));
+  if (!result.problem.bounds.unknowns.empty())
+    write_csv(out / "contact.csv", {"x", "gap", "pressure"}, contact_table(result));
 }
 
 void print_errors(const std::string& what, const Errors& e) {

@@ -5,7 +5,6 @@
 
 #include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/measure/residual.hpp"
-#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock {
@@ -15,7 +14,7 @@ namespace {
 void minimise_norm(VariationalInequality& problem, const SparseMatrix& norm, bool kernel) {
   problem.a1 = norm;
   problem.compliance = 0;
-  for (double& g : problem.force_limit)  // what gives way is no part of K_h
+  for (double& g : problem.bounds.force_limit)  // what gives way is no part of K_h
     if (std::isfinite(g)) g = 0;
   if (kernel) return;
   problem.b.resize(0, problem.size());
@@ -42,7 +41,7 @@ double dual_norm(VariationalInequality problem, const SparseMatrix& norm, const 
                  bool kernel) {
   problem = assemble_fixed_rows(std::move(problem));
   minimise_norm(problem, norm, kernel);
-  clear_bounds(problem);
+  problem.bounds = {};
   problem.dirichlet_values.setZero();
   problem.load = functional;
   return std::sqrt(std::max(0.0, functional.dot(active_set(problem).u)));

@@ -24,7 +24,7 @@ double distance_to_kernel(const VariationalInequality& problem) {
   // Without a load, u minimises a1/2 + a0/(2 epsilon) over K_h: as epsilon -> 0, a0 tends to its smallest value there.
   VariationalInequality unloaded = assemble_fixed_rows(problem);
   unloaded.load.setZero();
-  for (double& g : unloaded.force_limit)  // what gives way is no part of K_h
+  for (double& g : unloaded.bounds.force_limit)  // what gives way is no part of K_h
     if (std::isfinite(g)) g = 0;
   unloaded.compliance = 1e-9 * stiffness_ratio(unloaded).value();
   const Solution s = active_set(unloaded);

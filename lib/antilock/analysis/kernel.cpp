@@ -9,7 +9,6 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/memory.hpp"
-#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 
@@ -63,21 +62,21 @@ VariationalInequality stiff_part(VariationalInequality problem) {
   for (int i = 0; i < problem.size(); ++i)
     if (held[i]) problem.dirichlet_dofs.push_back(i);
   problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
-  std::set<int> bounded(problem.contact.begin(), problem.contact.end());
-  for (Eigen::Index row = 0; row < problem.constraints.rows(); ++row)  // what they combine counts as bounded
-    for (RowMatrix::InnerIterator entry(problem.constraints, row); entry; ++entry)
+  std::set<int> bounded(problem.bounds.unknowns.begin(), problem.bounds.unknowns.end());
+  for (Eigen::Index row = 0; row < problem.bounds.constraints.rows(); ++row)  // what they combine counts as bounded
+    for (RowMatrix::InnerIterator entry(problem.bounds.constraints, row); entry; ++entry)
       bounded.insert(static_cast<int>(entry.col()));
   std::erase_if(bounded, [&](int i) { return held[i] != 0; });
-  clear_bounds(problem);  // no bound has a part in the kernel of B
-  problem.contact.assign(bounded.begin(), bounded.end());
-  problem.lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
+  // the values of the bounds have no part in the kernel of B
+  problem.bounds = Bounds::lower_on({bounded.begin(), bounded.end()},
+                                    Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bounded.size())));
   return problem;
 }
 
 int layer_kernel_dimension(const VariationalInequality& problem) { return kernel_dimension(stiff_part(problem)); }
 
 int trace_dimension(const VariationalInequality& stiff) {
-  const VariationalInequality held = equality_constrained(stiff, std::vector<bool>(stiff.contact.size(), true));
+  const VariationalInequality held = equality_constrained(stiff, std::vector<bool>(stiff.bounds.unknowns.size(), true));
   return kernel_dimension(stiff) - (held.free_count() > 0 ? kernel_dimension(held) : 0);
 }
 

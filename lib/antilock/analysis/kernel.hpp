@@ -14,7 +14,7 @@ SparseMatrix free_prolongation(const VariationalInequality& problem);
 int kernel_dimension(const VariationalInequality& problem);
 
 /// Returns the restriction of the problem to the unknowns with entries in B; a stored zero counts
-/// as an entry. The other unknowns, which are in the kernel of any B, are fixed at 0. `contact` of
+/// as an entry. The other unknowns, which are in the kernel of any B, are fixed at 0. `bounds` of
 /// the result lists the bounded unknowns among the restricted ones, including the unknowns in a row
 /// of `constraints`.
 VariationalInequality stiff_part(VariationalInequality problem);

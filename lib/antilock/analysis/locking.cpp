@@ -8,7 +8,6 @@
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/problem/bounds.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/active_set.hpp"
 
@@ -37,7 +36,7 @@ namespace {
 std::optional<double> flexibility(VariationalInequality problem, const std::vector<int>& bounds, double compliance) {
   problem.load.setZero();
   for (const int i : bounds) problem.load(i) = 1.0 / static_cast<double>(bounds.size());
-  clear_bounds(problem);
+  problem.bounds = {};
   problem.dirichlet_values.setZero();
   problem.compliance = compliance;
   try {
@@ -86,25 +85,24 @@ LockingDiagnosis diagnose_locking(const VariationalInequality& on_coarse, const 
     if (problem->b.rows() == 0) throw Error("diagnose_locking: B has no rows; accepted: a problem with a stiff form");
   VariationalInequality first = stiff_part(coarse), second = stiff_part(fine);
   LockingDiagnosis found;
-  found.bounded = !first.contact.empty() && !second.contact.empty();
+  found.bounded = !first.bounds.unknowns.empty() && !second.bounds.unknowns.empty();
   if (!found.bounded)
     for (VariationalInequality* stiff : {&first, &second}) {
-      stiff->contact.clear();
+      std::vector<int> all;
       for (int i = 0; i < stiff->size(); ++i)
-        if (!std::binary_search(stiff->dirichlet_dofs.begin(), stiff->dirichlet_dofs.end(), i))
-          stiff->contact.push_back(i);
-      stiff->lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stiff->contact.size()));
+        if (!std::binary_search(stiff->dirichlet_dofs.begin(), stiff->dirichlet_dofs.end(), i)) all.push_back(i);
+      stiff->bounds = Bounds::lower_on(all, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all.size())));
     }
-  found.coarse_bounds = static_cast<int>(first.contact.size());
-  found.fine_bounds = static_cast<int>(second.contact.size());
+  found.coarse_bounds = static_cast<int>(first.bounds.unknowns.size());
+  found.fine_bounds = static_cast<int>(second.bounds.unknowns.size());
   if (found.coarse_bounds == 0 || found.fine_bounds <= found.coarse_bounds)
     throw Error(fmt::format("diagnose_locking: {} {}, then {}; accepted: more on the second mesh", found.coarse_bounds,
                             found.bounded ? "bounds on the stiff part" : "stiff unknowns", found.fine_bounds));
   found.coarse = trace_dimension(first);
   found.fine = trace_dimension(second);
   const auto ratio = [&](double compliance) -> std::optional<double> {
-    const auto on_coarse = flexibility(coarse, first.contact, compliance);
-    const auto on_fine = on_coarse ? flexibility(fine, second.contact, compliance) : std::nullopt;
+    const auto on_coarse = flexibility(coarse, first.bounds.unknowns, compliance);
+    const auto on_fine = on_coarse ? flexibility(fine, second.bounds.unknowns, compliance) : std::nullopt;
     if (!on_fine || !(*on_coarse > 0) || !(*on_fine > 0)) return {};
     return *on_fine / *on_coarse;
   };

@@ -198,34 +198,43 @@ void add_forms(VariationalInequality& strip, const Comparison& c, const LayerCol
   strip.load.head(c.sigma.size()) += body.force;
 }
 
-/// Fixes the unknowns below prescribed values, and lists those at the bottom of the columns.
-void add_dof_lists(VariationalInequality& strip, const Comparison& c, const LayerColumns& columns,
-                   const CondensedBody& body) {
+/// Fixes the unknowns below prescribed values, and returns the others at the bottom of the columns.
+/// These are bounded where u_h is; otherwise the list is empty.
+std::vector<int> divide_dofs(VariationalInequality& strip, const Comparison& c, const LayerColumns& columns,
+                             const CondensedBody& body) {
   const int n = c.sigma.size();
+  std::vector<int> bounded;
   for (int k = 0; k < (columns.rows + 1) * n; ++k) {
     const bool held_in_body = k < n && body.held[k];
     const bool at_bottom = k >= columns.rows * n;
     if (c.held[k % n] || held_in_body)
       strip.dirichlet_dofs.push_back(k);
-    else if (at_bottom && !c.problem.contact.empty())
-      strip.contact.push_back(k);
+    else if (at_bottom && !c.problem.bounds.unknowns.empty())
+      bounded.push_back(k);
   }
   strip.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strip.dirichlet_dofs.size()));
+  return bounded;
 }
 
-/// The bounds of u_h, interpolated at the bottom of the columns, as bounds of v - u_h. `base` is
-/// u_h - v_0 on Sigma: what is interpolated is the distance to v_0.
-Eigen::VectorXd bounds_of_strip(const Eigen::VectorXd& bounds, const VariationalInequality& strip, const Comparison& c,
-                                const LayerColumns& columns, const Eigen::VectorXd& v0, const Eigen::VectorXd& base) {
-  if (bounds.size() == 0) return bounds;
-  const Eigen::VectorXd contact_x = c.space.dof_coordinates().col(0)(c.problem.contact);
-  const Eigen::VectorXd above_v0 = bounds - v0(c.problem.contact);
-  Eigen::VectorXd here(static_cast<Eigen::Index>(strip.contact.size()));
-  for (Eigen::Index k = 0; k < here.size(); ++k) {
-    const int place = strip.contact[k] - columns.rows * c.sigma.size();
-    here(k) = piecewise_linear(contact_x, above_v0, c.sigma.x(place)) - base(place);
-  }
-  return here;
+/// The bounds of u_h, interpolated to the unknowns `bounded` at the bottom of the columns, as bounds
+/// of v - u_h. `base` is u_h - v_0 on Sigma. The function that is interpolated is the distance to
+/// v_0.
+Bounds bounds_of_strip(const std::vector<int>& bounded, const Comparison& c, const LayerColumns& columns,
+                       const Eigen::VectorXd& v0, const Eigen::VectorXd& base) {
+  const Bounds& of_u = c.problem.bounds;
+  const Eigen::VectorXd contact_x = c.space.dof_coordinates().col(0)(of_u.unknowns);
+  const auto interpolated = [&](const Eigen::VectorXd& limits) {
+    const Eigen::VectorXd above_v0 = limits - v0(of_u.unknowns);
+    Eigen::VectorXd here(static_cast<Eigen::Index>(bounded.size()));
+    for (Eigen::Index k = 0; k < here.size(); ++k) {
+      const int place = bounded[k] - columns.rows * c.sigma.size();
+      here(k) = piecewise_linear(contact_x, above_v0, c.sigma.x(place)) - base(place);
+    }
+    return here;
+  };
+  Bounds bounds = Bounds::lower_on(bounded, interpolated(of_u.lower));
+  if (of_u.has_upper_bounds()) bounds.upper = interpolated(of_u.upper);
+  return bounds;
 }
 
 /// The problem for v, in differences to u_h on Sigma, constant in y.
@@ -252,9 +261,8 @@ Strip strip_for(const Comparison& c, const Remainders& left, const Eigen::Vector
       problem.load.segment(at.row * n, n)(*at.edge) += (1 - at.lower_share) * at.force;
       problem.load.segment((at.row + 1) * n, n)(*at.edge) += at.lower_share * at.force;
     }
-  add_dof_lists(problem, c, columns, body);
-  problem.lower = bounds_of_strip(c.problem.lower, problem, c, columns, v0, base);
-  problem.upper = bounds_of_strip(c.problem.upper, problem, c, columns, v0, base);
+  const std::vector<int> bounded = divide_dofs(problem, c, columns, body);
+  problem.bounds = bounds_of_strip(bounded, c, columns, v0, base);
   return strip;
 }
 

@@ -7,7 +7,6 @@
 #include "antilock/core/error.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/measure/contact_edges.hpp"
-#include "antilock/problem/bounds.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/space/space.hpp"
@@ -40,7 +39,7 @@ NegativePart negative_part(const Space& space, VariationalInequality problem, co
   problem.a1 = norm;
   problem.b.resize(0, problem.size());
   problem.m.resize(0);
-  const std::vector<bool> none(problem.contact.size());
+  const std::vector<bool> none(problem.bounds.unknowns.size());
   return {std::sqrt(largest), active_set(equality_constrained(problem, none)).u / std::sqrt(largest)};
 }
 

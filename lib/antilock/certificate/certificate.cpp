@@ -224,8 +224,8 @@ double contact_work(const Result& result, const EquilibratedFlux& flux, const Co
                     Eigen::VectorXd& indicator) {
   const TriangleMesh& mesh = result.space.mesh();
   double sum = 0;
-  for (std::size_t i = 0; i < result.problem.contact.size(); ++i) {
-    const int e = result.problem.contact[i];
+  for (std::size_t i = 0; i < result.problem.bounds.unknowns.size(); ++i) {
+    const int e = result.problem.bounds.unknowns[i];
     const auto place = static_cast<Eigen::Index>(i);
     if (flux.lambda(place) == 0) continue;
     const double work = std::max(flux.lambda(place) * (mean_on(mesh, e, v) + flux.gap(place)), 0.0);

@@ -176,16 +176,20 @@ Eigen::VectorXd values_above(const Strip& strip, const TriangleMesh& mesh, const
 /// in K. `near` as in admissible_bounds.
 void add_conditions(VariationalInequality& problem, const Strip& strip, const Scene& scene,
                     const Eigen::VectorXd& near) {
-  if (scene.contact()) problem.lower = admissible_bounds(*scene.contact(), strip.space, near);
+  if (scene.contact()) problem.bounds.lower = admissible_bounds(*scene.contact(), strip.space, near);
   problem.dirichlet_dofs.clear();
   for (int v = 0; v < strip.space.size(); ++v)
     if (strip.fixed[v]) problem.dirichlet_dofs.push_back(v);
   problem.dirichlet_values = strip.value(problem.dirichlet_dofs);
-  std::vector<Eigen::Index> bounded;
-  for (Eigen::Index i = 0; i < problem.lower.size(); ++i)
-    if (!strip.fixed[problem.contact[i]]) bounded.push_back(i);
-  problem.lower = problem.lower(bounded).eval();
-  std::erase_if(problem.contact, [&](int v) { return strip.fixed[v] != 0; });
+  const Bounds& bounds = problem.bounds;
+  std::vector<int> unknowns;
+  std::vector<int> places;
+  for (int i = 0; i < bounds.count(); ++i) {
+    if (strip.fixed[bounds.unknowns[i]]) continue;
+    unknowns.push_back(bounds.unknowns[i]);
+    places.push_back(i);
+  }
+  problem.bounds = {unknowns, {bounds.lower(places), bounds.upper(places)}};
 }
 
 Solution solve_strip(const VariationalInequality& problem, const Eigen::VectorXd& value) {
@@ -243,7 +247,7 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space&
 VariationalInequality assemble_in_k(const Scene& scene, const Space& space) {
   VariationalInequality problem = assemble(scene, space);
   if (scene.contact())
-    problem.lower = admissible_bounds(*scene.contact(), space, dirichlet_vertex_values(scene, space.mesh()));
+    problem.bounds.lower = admissible_bounds(*scene.contact(), space, dirichlet_vertex_values(scene, space.mesh()));
   return problem;
 }
 

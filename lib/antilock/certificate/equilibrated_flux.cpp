@@ -24,7 +24,7 @@ const Field* traction_on(const Scene& scene, EdgeTag tag) {
 
 /// Throws for an element, a feature or a layer without a flux in equilibrium.
 void check_scene(const Scene& scene, const Result& result) {
-  require_lower_bounds(result.problem, "certificate");
+  require_lower_bounds(result.problem.bounds, "certificate");
   const Element& element = result.space.element();
   if (element.name() != "CR")
     throw Error("certificate: element " + element.name() +
@@ -58,7 +58,7 @@ void check_solution(const Scene& scene, const Result& result) {
 /// Throws for conditions on the boundary that the flux does not have.
 void check_boundary(const Scene& scene, const Space& space, const VariationalInequality& problem) {
   const TriangleMesh& mesh = space.mesh();
-  if (problem.contact.empty() == scene.contact().has_value() && !space.contact_dofs().empty())
+  if (problem.bounds.unknowns.empty() == scene.contact().has_value() && !space.contact_dofs().empty())
     throw Error("certificate: scene and problem do not agree whether there is contact");
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const bool of_layer = mesh.region[mesh.edge_triangles(e, 0)] == Region::layer;
@@ -68,7 +68,7 @@ void check_boundary(const Scene& scene, const Space& space, const VariationalIne
   for (const int e : problem.dirichlet_dofs)
     if (mesh.edge_triangles(e, 1) >= 0)
       throw Error("certificate: a value is fixed inside the domain; accepted: on the boundary");
-  for (const int e : problem.contact)
+  for (const int e : problem.bounds.unknowns)
     if (mesh.edge_tag[e] != EdgeTag::contact)
       throw Error("certificate: an unknown off Gamma_C is bounded; accepted: bounds on the edges in the group contact");
 }
@@ -341,11 +341,11 @@ void add_contact_forces(EquilibratedFlux& flux, const Scene& scene, const Triang
                         const VariationalInequality& problem) {
   flux.imbalance = flux.residual;
   for (const int e : problem.dirichlet_dofs) flux.imbalance(e) = 0;
-  const auto contact = static_cast<Eigen::Index>(problem.contact.size());
+  const auto contact = static_cast<Eigen::Index>(problem.bounds.unknowns.size());
   flux.lambda.resize(contact);
   flux.gap.resize(contact);
   for (Eigen::Index i = 0; i < contact; ++i) {
-    const int e = problem.contact[i];  // the unknown of Crouzeix-Raviart is the edge
+    const int e = problem.bounds.unknowns[i];  // the unknown of Crouzeix-Raviart is the edge
     flux.lambda(i) = std::max(flux.residual(e), 0.0);
     flux.imbalance(e) -= flux.lambda(i);
     const double from = mesh.vertices(mesh.edges(e, 0), 0);

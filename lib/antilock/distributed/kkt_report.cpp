@@ -37,7 +37,7 @@ std::vector<char> clamped_rows(const DofMap& rows) {
 void add_bounds(Kkt& kkt, const DistributedProblem& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& lambda,
                 double reach, const Eigen::VectorXd& forces) {
   const DofMap& rows = problem.rows();
-  const Bounds bounds{problem.lower()};
+  const BoundLimits bounds(problem.lower());
   kkt.min_gap = std::numeric_limits<double>::infinity();
   kkt.min_pressure = std::numeric_limits<double>::infinity();
   for (int i = 0; i < rows.owned(); ++i)

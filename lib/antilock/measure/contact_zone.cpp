@@ -18,22 +18,22 @@ namespace {
 void require_space_of_bounds(const Result& result, const std::string& who) {
   const Space& space = result.space;
   const VariationalInequality& problem = result.problem;
-  require_bounds_on_unknowns(problem, who);
-  require_hard_bounds(problem, who);
-  if (space.contact_dofs().size() != problem.contact.size())
+  require_bounds_on_unknowns(problem.bounds, who);
+  require_hard_bounds(problem.bounds, who);
+  if (space.contact_dofs().size() != problem.bounds.unknowns.size())
     throw Error(fmt::format(
         "{}: {} bounds and a space with {} unknowns on Gamma_C; accepted: that of the component with bounds", who,
-        problem.contact.size(), space.contact_dofs().size()));
+        problem.bounds.unknowns.size(), space.contact_dofs().size()));
 }
 
 }  // namespace
 
 ContactZone contact_zone(const Result& result) {
-  if (result.problem.bound_count() == 0) return {};
+  if (result.problem.bounds.count() == 0) return {};
   require_space_of_bounds(result, "contact zone");
   const std::vector<int>& places = result.space.contact_dofs();
   ContactZone zone;
-  zone.points = static_cast<int>(result.problem.contact.size());
+  zone.points = static_cast<int>(result.problem.bounds.unknowns.size());
   for (int i = 0; i < zone.points; ++i) {
     if (!result.solution.active[i]) continue;
     const double x = result.space.dof_coordinates()(places[i], 0);
@@ -59,7 +59,7 @@ Eigen::MatrixX3d contact_table(const Result& result) {
   const auto count = static_cast<Eigen::Index>(places.size());
   Eigen::MatrixX3d table(count, 3);
   table.col(0) = space.dof_coordinates().col(0)(places);
-  table.col(1) = distance_to_bound(result.problem, result.solution.u);
+  table.col(1) = distance_to_bound(result.problem.bounds, result.solution.u);
   table.col(2) = result.solution.lambda.cwiseQuotient(contact_lengths(space));
   return table;
 }

@@ -147,7 +147,7 @@ double energy(const VariationalInequality& problem, const Solution& solution) {
                             solution.u.size(), solution.p.size(), problem.size(), problem.b.rows()));
   const double stiff = solution.p.dot(problem.compliances().cwiseProduct(problem.m).cwiseProduct(solution.p));
   return 0.5 * (solution.u.dot(problem.a1 * solution.u) + stiff) - problem.load.dot(solution.u) +
-         friction_energy(problem, solution.u);
+         friction_energy(problem.bounds, solution.u);
 }
 
 }  // namespace antilock

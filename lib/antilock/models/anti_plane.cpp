@@ -223,19 +223,19 @@ void add_layer(VariationalInequality& problem, const StiffLayer& layer, const Sp
 
 /// The bounds on Gamma_C.
 void add_contact(VariationalInequality& problem, const UnilateralContact& contact, const Space& space) {
-  problem.contact = space.contact_dofs();
-  const Eigen::VectorXd x = space.dof_coordinates().col(0)(problem.contact);
-  problem.lower = -x.unaryExpr(contact.gap);
+  const Eigen::VectorXd x = space.dof_coordinates().col(0)(space.contact_dofs());
+  problem.bounds = Bounds::lower_on(space.contact_dofs(), -x.unaryExpr(contact.gap));
+  const Eigen::VectorXd& lower = problem.bounds.lower;
   for (Eigen::Index i = 0; i < x.size(); ++i)
-    if (!std::isfinite(problem.lower(i))) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
+    if (!std::isfinite(lower(i))) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
   if (!contact.upper_obstacle) return;
-  problem.upper = x.unaryExpr(contact.upper_obstacle);
+  Eigen::VectorXd& upper = problem.bounds.upper;
+  upper = x.unaryExpr(contact.upper_obstacle);
   // where two formulas say the same, the round-off of one must not put the ceiling below the
   // obstacle
-  const Eigen::ArrayXd lower = problem.lower.array();
-  const Eigen::ArrayXd round_off = 1e-12 * lower.abs().max(1);
+  const Eigen::ArrayXd round_off = 1e-12 * lower.array().abs().max(1);
   for (Eigen::Index i = 0; i < x.size(); ++i)
-    if (problem.upper(i) >= lower(i) - round_off(i)) problem.upper(i) = std::max(problem.upper(i), lower(i));
+    if (upper(i) >= lower(i) - round_off(i)) upper(i) = std::max(upper(i), lower(i));
 }
 
 }  // namespace

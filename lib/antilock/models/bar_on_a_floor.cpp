@@ -1,5 +1,7 @@
 #include "antilock/models/bar_on_a_floor.hpp"
 
+#include <numeric>
+
 #include "antilock/problem/variational_inequality.hpp"
 
 namespace antilock {
@@ -16,10 +18,11 @@ VariationalInequality bar_on_a_floor(int n, double pull) {
   bar.load = pull * Eigen::VectorXd::Unit(n + 1, n);
   bar.dirichlet_dofs = {0};
   bar.dirichlet_values = Eigen::VectorXd::Zero(1);
-  for (int i = 1; i <= n; ++i) bar.contact.push_back(i);
-  bar.lower = bar.upper = Eigen::VectorXd::Zero(n);
-  bar.force_limit = Eigen::VectorXd::Constant(n, 1.0 / n);
-  bar.force_limit(n - 1) = 0.5 / n;
+  std::vector<int> nodes(n);
+  std::iota(nodes.begin(), nodes.end(), 1);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
+  bar.bounds = {nodes, {zero, zero, Eigen::VectorXd::Constant(n, 1.0 / n)}};
+  bar.bounds.force_limit(n - 1) = 0.5 / n;
   return bar;
 }
 

@@ -11,7 +11,7 @@
 #include "antilock/form/quadrature.hpp"
 #include "antilock/form/strain_projection.hpp"
 #include "antilock/models/detail/stiffness_range.hpp"
-#include "antilock/problem/bounds.hpp"
+#include "antilock/problem/variational_inequality.hpp"
 
 namespace antilock {
 
@@ -38,21 +38,23 @@ Eigen::VectorXd friction_bounds(const Profile& g, const Space& space) {
 /// Behind the bounds of u_y: u_x = 0 on the free contact unknowns, as long as the force is below its bound.
 void add_friction(VariationalInequality& problem, const Profile& g, const Space& in_x) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd all = friction_bounds(g, in_x), normal = problem.lower;
-  std::vector<double> bounds;
+  const Eigen::VectorXd all = friction_bounds(g, in_x), normal = problem.bounds.lower;
+  std::vector<int> unknowns = problem.bounds.unknowns;
+  std::vector<double> limits;
   for (const int i : in_x.contact_dofs()) {
     if (std::binary_search(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end(), i)) continue;
-    problem.contact.push_back(i);
-    bounds.push_back(all(i));
+    unknowns.push_back(i);
+    limits.push_back(all(i));
   }
-  const auto tangential = static_cast<Eigen::Index>(bounds.size());
+  const auto tangential = static_cast<Eigen::Index>(limits.size());
   const Eigen::VectorXd sticks = Eigen::VectorXd::Zero(tangential);
   const Eigen::VectorXd none = Eigen::VectorXd::Constant(normal.size(), infinity);
-  problem.lower.resize(normal.size() + tangential);
-  problem.upper = problem.force_limit = problem.lower;
-  problem.lower << normal, sticks;
-  problem.upper << none, sticks;
-  problem.force_limit << none, Eigen::Map<const Eigen::VectorXd>(bounds.data(), tangential);
+  const Eigen::Index count = normal.size() + tangential;
+  Eigen::VectorXd lower(count), upper(count), force_limit(count);
+  lower << normal, sticks;
+  upper << none, sticks;
+  force_limit << none, Eigen::Map<const Eigen::VectorXd>(limits.data(), tangential);
+  problem.bounds = {unknowns, {lower, upper, force_limit}};
 }
 
 }  // namespace
@@ -80,8 +82,10 @@ void add_block_loading(VariationalInequality& problem, const BlockLoading& press
     if (!press.sliding) fixed[i] = 0;
   for (const int i : space.y.dirichlet_dofs()) fixed[shift + i] = -press.prescribed_displacement;
   set_dirichlet(problem, fixed);
-  for (const int i : space.y.contact_dofs()) problem.contact.push_back(shift + i);
-  problem.lower = -space.y.dof_coordinates().col(0)(space.y.contact_dofs()).unaryExpr(press.gap);
+  std::vector<int> normal;
+  for (const int i : space.y.contact_dofs()) normal.push_back(shift + i);
+  problem.bounds =
+      Bounds::lower_on(normal, -space.y.dof_coordinates().col(0)(space.y.contact_dofs()).unaryExpr(press.gap));
   if (press.friction) add_friction(problem, press.friction, space.x);
 }
 

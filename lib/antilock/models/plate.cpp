@@ -9,7 +9,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/gradient_forms.hpp"
-#include "antilock/problem/bounds.hpp"
+#include "antilock/problem/variational_inequality.hpp"
 
 namespace antilock {
 namespace {
@@ -84,17 +84,19 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
 
   const std::map<int, double> fixed = held(plate, space);
   set_dirichlet(problem, fixed);
+  std::vector<int> bounded;
   std::vector<double> lower;
   for (int i = 0; i < space.deflection.size(); ++i) {
     const double gap = plate.gap(space.deflection.dof_coordinates()(i, 0), space.deflection.dof_coordinates()(i, 1));
     if (std::isnan(gap) || gap == -std::numeric_limits<double>::infinity())
       throw Error(fmt::format("plate: the gap is {}; accepted: a number, or infinity for no obstacle", gap));
     if (fixed.count(i) > 0 || std::isinf(gap)) continue;
-    problem.contact.push_back(i);
+    bounded.push_back(i);
     lower.push_back(-gap);
   }
   require_rim_above(plate, space.mesh());
-  problem.lower = Eigen::Map<const Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size()));
+  problem.bounds = Bounds::lower_on(
+      bounded, Eigen::Map<const Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size())));
   return problem;
 }
 

@@ -55,8 +55,9 @@ VariationalInequality assemble(const Beam& beam) {
   problem.compliance = beam.epsilon;  // here the class parameter is epsilon itself
   problem.dirichlet_dofs = {w(0), theta(0), w(n), theta(n)};
   problem.dirichlet_values = Eigen::VectorXd::Zero(4);
-  for (int i = 1; i < n; ++i) problem.contact.push_back(w(i));
-  problem.lower = Eigen::VectorXd::Constant(n - 1, -beam.gap);
+  std::vector<int> inside;
+  for (int i = 1; i < n; ++i) inside.push_back(w(i));
+  problem.bounds = Bounds::lower_on(inside, Eigen::VectorXd::Constant(n - 1, -beam.gap));
   return problem;
 }
 

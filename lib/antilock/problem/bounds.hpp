@@ -1,8 +1,9 @@
 #pragma once
-#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/core/matrix.hpp"
 
 namespace antilock {
 
@@ -14,43 +15,78 @@ constexpr double infinite_bound = 1e40;
 /// Returns the bound, or infinity of the same sign where |bound| >= infinite_bound.
 double bound_or_infinity(double bound);
 
-/// Returns the C bounded values of u (N): its contact unknowns, then constraints * u.
-Eigen::VectorXd bounded_values(const VariationalInequality& problem, const Eigen::VectorXd& u);
+/// The limits of C values s_i, lower_i <= s_i <= upper_i, and of the forces lambda_i that keep the
+/// values within them. All three vectors have C entries. Where a limit does not exist, its entry is
+/// infinite.
+///
+/// The force lambda_i is at least 0 at a lower bound and at most 0 at an upper one. A bound with a
+/// finite force limit is soft: it yields once its force would exceed the limit.
+struct BoundLimits {
+  Eigen::VectorXd lower;        ///< C; -gap for an obstacle below; -infinity: no lower bound
+  Eigen::VectorXd upper;        ///< C; +infinity: no upper bound; = lower: an equation
+  Eigen::VectorXd force_limit;  ///< C, 0 or more: the largest |lambda|; +infinity: a hard bound
 
-/// Returns E' lambda (N), the forces on the unknowns of the C forces lambda at the bounds. E maps u
-/// to bounded_values(u).
-Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::VectorXd& lambda);
+  /// Makes no bounds, C = 0.
+  BoundLimits() = default;
+  /// Makes hard lower bounds.
+  explicit BoundLimits(Eigen::VectorXd lower_limits);
+  /// Makes hard bounds on both sides.
+  BoundLimits(Eigen::VectorXd lower_limits, Eigen::VectorXd upper_limits);
+  BoundLimits(Eigen::VectorXd lower_limits, Eigen::VectorXd upper_limits, Eigen::VectorXd force_limits);
+
+  /// Returns C.
+  int count() const { return static_cast<int>(lower.size()); }
+  bool is_equation(int i) const { return lower(i) == upper(i); }
+  bool has_upper_bounds() const;  ///< whether one is not infinite
+  bool has_force_limits() const;  ///< whether one is not infinite
+};
+
+/// The bounds of a variational inequality (variational_inequality.hpp) and the C values s of u that
+/// they bound: first the entries of u at `unknowns`, then constraints * u. The limits and
+/// Solution::lambda list the bounds in this order.
+struct Bounds : BoundLimits {
+  /// The bounded unknowns. Reports list them in this order. The nested start (solve/contact.hpp) is
+  /// a good one where neighbours in this list are neighbours on the boundary.
+  std::vector<int> unknowns;
+  /// (C - size of `unknowns`) x N, or 0 x 0. A row c bounds c . u, for example the normal
+  /// displacement on an inclined plane or the gap between two bodies.
+  RowMatrix constraints;
+
+  /// Makes no bounds, C = 0.
+  Bounds() = default;
+  Bounds(std::vector<int> bounded_unknowns, BoundLimits limits, const RowMatrix& bounded_rows = {})
+      : BoundLimits(std::move(limits)), unknowns(std::move(bounded_unknowns)), constraints(bounded_rows) {}
+  const BoundLimits& limits() const { return *this; }
+  /// Returns hard lower bounds on unknowns, one value per unknown.
+  static Bounds lower_on(std::vector<int> unknowns, Eigen::VectorXd lower) {
+    return {std::move(unknowns), BoundLimits(std::move(lower))};
+  }
+};
+
+/// Returns the C bounded values of u (N): its entries at the bounded unknowns, then constraints * u.
+Eigen::VectorXd bounded_values(const Bounds& bounds, const Eigen::VectorXd& u);
+
+/// Returns E' lambda (N = size), the forces on the unknowns of the C forces lambda at the bounds. E
+/// maps u to bounded_values(u).
+Eigen::VectorXd bound_forces(const Bounds& bounds, const Eigen::VectorXd& lambda, Eigen::Index size);
 
 /// Returns min(s_i - lower_i, upper_i - s_i) for each bounded value s_i of u (C): the distance to
 /// the nearer bound, negative where the bound is violated. It is infinite for a bound with a force
 /// limit, which any value may pass.
-Eigen::VectorXd distance_to_bound(const VariationalInequality& problem, const Eigen::VectorXd& u);
+Eigen::VectorXd distance_to_bound(const Bounds& bounds, const Eigen::VectorXd& u);
 
 /// Returns j(u) = sum_i g_i dist(s_i, [lower_i, upper_i]), the work of u against the bounds with a
 /// finite force limit g_i (Tresca's friction). s = bounded_values(u).
-double friction_energy(const VariationalInequality& problem, const Eigen::VectorXd& u);
+double friction_energy(const Bounds& bounds, const Eigen::VectorXd& u);
 
-/// Replaces the dirichlet_dofs of the problem and their values by these.
-void set_dirichlet(VariationalInequality& problem, const std::map<int, double>& values);
+/// Throws Error, whose message begins with `who`, where there are bounds on constraints.
+void require_bounds_on_unknowns(const Bounds& bounds, const std::string& who);
 
-/// Removes all bounds, those on unknowns and those on constraints.
-void clear_bounds(VariationalInequality& problem);
+/// Throws Error, whose message begins with `who`, where a bound has a force limit.
+void require_hard_bounds(const Bounds& bounds, const std::string& who);
 
-/// Returns the equality-constrained problem of an active set (J. Nocedal and S. J. Wright,
-/// Numerical Optimization, ch. 16). `active` has one mark per contact unknown. Marked bounds hold
-/// as equations, u = lower, and the other bounds are removed, so that the problem is linear. Where
-/// `active` is the contact set of the solution, both problems have the same solution. Throws Error
-/// for another number of marks, and for bounds other than lower bounds on unknowns.
-VariationalInequality equality_constrained(VariationalInequality problem, const std::vector<bool>& active);
-
-/// Throws Error, whose message begins with `who`, where the problem has bounds on constraints.
-void require_bounds_on_unknowns(const VariationalInequality& problem, const std::string& who);
-
-/// Throws Error, whose message begins with `who`, where the problem has force limits.
-void require_hard_bounds(const VariationalInequality& problem, const std::string& who);
-
-/// Throws Error, whose message begins with `who`, where the problem has upper bounds, force limits,
-/// or bounds on constraints.
-void require_lower_bounds(const VariationalInequality& problem, const std::string& who);
+/// Throws Error, whose message begins with `who`, where there are upper bounds, force limits, or
+/// bounds on constraints.
+void require_lower_bounds(const Bounds& bounds, const std::string& who);
 
 }  // namespace antilock

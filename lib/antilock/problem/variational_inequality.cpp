@@ -46,7 +46,7 @@ double asymmetry(const SparseMatrix& a) {
 }
 
 void check_constraints(const VariationalInequality& problem) {
-  const RowMatrix& rows = problem.constraints;
+  const RowMatrix& rows = problem.bounds.constraints;
   if (rows.rows() == 0) return;
   require(rows.cols() == problem.size(),
           fmt::format("constraints have {} columns; accepted {}, one per unknown", rows.cols(), problem.size()));
@@ -65,23 +65,24 @@ void check_constraints(const VariationalInequality& problem) {
 
 void check_bounds(const VariationalInequality& problem) {
   check_constraints(problem);
-  const Eigen::VectorXd &lower = problem.lower, &upper = problem.upper;
-  const int bounds = problem.bound_count();
-  require(lower.size() == bounds,
+  const Bounds& bounds = problem.bounds;
+  const Eigen::VectorXd &lower = bounds.lower, &upper = bounds.upper, &limit = bounds.force_limit;
+  const auto count = static_cast<Eigen::Index>(bounds.unknowns.size()) + bounds.constraints.rows();
+  require(lower.size() == count,
           fmt::format("lower has {} entries; accepted {}: one bound per contact unknown and per constraint",
-                      lower.size(), bounds));
-  require(upper.size() == 0 || upper.size() == bounds,
-          fmt::format("upper has {} entries; accepted none, or {} as in lower", upper.size(), bounds));
-  require(
-      problem.force_limit.size() == 0 || problem.force_limit.size() == bounds,
-      fmt::format("force_limit has {} entries; accepted none, or {} as in lower", problem.force_limit.size(), bounds));
-  for (Eigen::Index i = 0; i < problem.force_limit.size(); ++i)
-    require(problem.force_limit(i) >= 0,
-            fmt::format("force_limit {} is {}; accepted: 0 or more, infinity for any", i, problem.force_limit(i)));
+                      lower.size(), count));
+  require(upper.size() == count, fmt::format("upper has {} entries; accepted {}, as in lower", upper.size(), count));
+  require(limit.size() == count,
+          fmt::format("force_limit has {} entries; accepted {}, as in lower", limit.size(), count));
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < bounds; ++i) {
-    const double low = lower(i), high = upper.size() > 0 ? upper(i) : infinity;
-    require(low < infinity && high > -infinity && (std::isfinite(low) || std::isfinite(high)),
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double low = lower(i);
+    const double high = upper(i);
+    const bool one_is_finite = std::isfinite(low) || std::isfinite(high);
+    const bool is_interval = one_is_finite && low <= high;
+    if (is_interval && limit(i) >= 0) continue;  // of many bounds: no message is formatted
+    require(limit(i) >= 0, fmt::format("force_limit {} is {}; accepted: 0 or more, infinity for any", i, limit(i)));
+    require(one_is_finite && low < infinity && high > -infinity,
             fmt::format("bound {} is not finite: from {} to {}; accepted: one finite side or two, -infinity below "
                         "or infinity above for none",
                         i, low, high));
@@ -113,7 +114,7 @@ void check_data(const VariationalInequality& problem) {
   require(problem.dirichlet_values.size() == static_cast<Eigen::Index>(problem.dirichlet_dofs.size()),
           "one value per fixed unknown is needed");
   std::vector<char> taken(n, 0);
-  for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.contact})
+  for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.bounds.unknowns})
     for (const int i : *list) {
       require(i >= 0 && i < n, fmt::format("unknown {} is out of range; accepted 0 to {}", i, n - 1));
       require(!taken[i], fmt::format("unknown {} is fixed or bounded twice", i));
@@ -169,6 +170,30 @@ void check(const VariationalInequality& problem) {
   // Relative to the largest entry: what assembly leaves is round-off of the sums.
   const double largest = problem.a1.nonZeros() > 0 ? problem.a1.coeffs().abs().maxCoeff() : 0;
   require(asymmetry(problem.a1) <= 1e-12 * largest, "a1 is not symmetric");
+}
+
+void set_dirichlet(VariationalInequality& problem, const std::map<int, double>& values) {
+  problem.dirichlet_dofs.clear();
+  problem.dirichlet_values.resize(static_cast<Eigen::Index>(values.size()));
+  for (const auto& [unknown, value] : values) {
+    problem.dirichlet_values(static_cast<Eigen::Index>(problem.dirichlet_dofs.size())) = value;
+    problem.dirichlet_dofs.push_back(unknown);
+  }
+}
+
+VariationalInequality equality_constrained(VariationalInequality problem, const std::vector<bool>& active) {
+  const Bounds bounds = std::exchange(problem.bounds, {});
+  require_lower_bounds(bounds, "equality_constrained");
+  if (active.size() != bounds.unknowns.size())
+    throw Error(fmt::format("equality_constrained: {} marks; accepted: {}, one per contact unknown", active.size(),
+                            bounds.unknowns.size()));
+  std::map<int, double> fixed;
+  for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
+    fixed[problem.dirichlet_dofs[i]] = problem.dirichlet_values(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < active.size(); ++i)
+    if (active[i]) fixed[bounds.unknowns[i]] = bounds.lower(static_cast<Eigen::Index>(i));
+  set_dirichlet(problem, fixed);
+  return problem;
 }
 
 }  // namespace antilock

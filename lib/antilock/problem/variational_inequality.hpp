@@ -1,7 +1,9 @@
 #pragma once
+#include <map>
 #include <vector>
 
 #include "antilock/core/matrix.hpp"
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 
@@ -10,17 +12,14 @@ namespace antilock {
 ///
 ///     u in K_h:  a1(u, v - u) + compliance^-1 a0(u, v - u) >= L(v - u)   for all v in K_h
 ///     K_h = { v : v = dirichlet_values on the dirichlet_dofs,
-///                 lower <= v <= upper on the contact unknowns,  lower <= constraints v <= upper }
+///                 lower <= s(v) <= upper },   s(v) the bounded values of v (bounds.hpp)
 ///
 /// [SR04] is L. Slimane and Y. Renard, The treatment of the locking phenomenon for a general class
 /// of variational inequalities, J. Comput. Appl. Math. 170 (2004), 121-143. The headers of this
 /// library cite its equations, propositions and remarks by number.
 ///
-/// N is the number of unknowns, R the number of rows of B, and C the number of bounds: one bound
-/// per entry of `contact`, then one per row of `constraints`. The vectors lower, upper, force_limit
-/// and Solution::lambda list the bounds in this order. Every quantity is dimensionless.
-///
-/// The contact force lambda_i is at least 0 at a lower bound and at most 0 at an upper one.
+/// N is the number of unknowns, R the number of rows of B, and C the number of bounds. Every
+/// quantity is dimensionless.
 ///
 /// The stiff form a0(u, v) = (B u, M B v), M diagonal, is kept as its factors, because the sum A1 +
 /// compliance^-1 B' M B loses the digits of A1 to round-off as the compliance falls. A form with a
@@ -30,8 +29,8 @@ namespace antilock {
 /// multiplied by s. Therefore a compliance above 1 is accepted.
 ///
 /// A bound with a finite force limit g is a soft constraint and does not restrict K_h. It carries a
-/// force of at most g and yields once the force would exceed g. With s_i the bounded value (an
-/// unknown, or a row of constraints times v), it adds j(v) - j(u) to the left side,
+/// force of at most g and yields once the force would exceed g. With s_i its bounded value, it adds
+/// j(v) - j(u) to the left side,
 ///
 ///     j(v) = sum_i g_i dist(s_i, [lower_i, upper_i]),   so that |lambda_i| <= g_i,
 ///
@@ -48,17 +47,7 @@ struct VariationalInequality {
   Eigen::VectorXd load;              ///< N, L(phi_i)
   std::vector<int> dirichlet_dofs;   ///< unknowns with a prescribed value
   Eigen::VectorXd dirichlet_values;  ///< one per dirichlet_dof
-  /// The bounded unknowns. Reports list them in this order. The nested start (solve/contact.hpp) is
-  /// a good one where neighbours in this list are neighbours on the boundary.
-  std::vector<int> contact;
-  Eigen::VectorXd lower;  ///< C; -gap for an obstacle below; -infinity: no lower bound
-  /// C, or empty: no upper bounds. +infinity: bound i has none; = lower: an equation.
-  Eigen::VectorXd upper = {};
-  /// C, or empty: no limits. The largest |lambda|, 0 or more; +infinity: a hard bound.
-  Eigen::VectorXd force_limit = {};
-  /// (C - size of `contact`) x N, or empty. A row c bounds c . u, for example the normal
-  /// displacement on an inclined plane or the gap between two bodies.
-  RowMatrix constraints = {};
+  Bounds bounds;                     ///< C, the admissible set K_h and the force limits
 
   /// At most R entries, each 0 or more: the compliances of the last rows of B. They do not vary
   /// with `compliance`. Row j with c_j > 0 has the energy m_j (B u)_j^2 / (2 c_j), which belongs to
@@ -76,8 +65,6 @@ struct VariationalInequality {
     rows.tail(fixed_compliances.size()) = fixed_compliances;
     return rows;
   }
-  /// Returns C.
-  int bound_count() const { return static_cast<int>(contact.size()) + static_cast<int>(constraints.rows()); }
 };
 
 /// Throws an Error that names the first requirement which does not hold: sizes that fit, finite
@@ -107,5 +94,15 @@ VariationalInequality assemble_fixed_rows(VariationalInequality problem);
 /// Throws Error unless the bounds are well formed: sizes that fit, no NaN, lower <= upper, one
 /// finite side or two, force limits of 0 or more, and a free unknown in every row of constraints.
 void check_bounds(const VariationalInequality& problem);
+
+/// Replaces the dirichlet_dofs of the problem and their values by these.
+void set_dirichlet(VariationalInequality& problem, const std::map<int, double>& values);
+
+/// Returns the equality-constrained problem of an active set (J. Nocedal and S. J. Wright,
+/// Numerical Optimization, ch. 16). `active` has one mark per bounded unknown. Marked bounds hold
+/// as equations, u = lower, and the other bounds are removed, so that the problem is linear. Where
+/// `active` is the contact set of the solution, both problems have the same solution. Throws Error
+/// for another number of marks, and for bounds other than lower bounds on unknowns.
+VariationalInequality equality_constrained(VariationalInequality problem, const std::vector<bool>& active);
 
 }  // namespace antilock

@@ -84,8 +84,8 @@ std::optional<Eigen::VectorXd> PressedModel<Block>::friction_forces(const Result
   const Eigen::VectorXd length = contact_lengths(result.space);
   // behind the bounds of u_y stand those of u_x, in the same order, but where u_x is held
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contact.size()));
-  for (std::size_t i = contact.size(); i < result.problem.contact.size(); ++i) {
-    const auto row = std::find(contact.begin(), contact.end(), result.problem.contact[i]) - contact.begin();
+  for (std::size_t i = contact.size(); i < result.problem.bounds.unknowns.size(); ++i) {
+    const auto row = std::find(contact.begin(), contact.end(), result.problem.bounds.unknowns[i]) - contact.begin();
     forces(row) = result.solution.lambda(static_cast<Eigen::Index>(i)) / length(row);
   }
   return forces;

@@ -109,8 +109,8 @@ Result normal_contact(const Result& result) {
   const std::size_t count = result.space.contact_dofs().size();
   const auto all = static_cast<Eigen::Index>(count);
   Result normal{.space = result.space};
-  normal.problem.contact.assign(problem.contact.begin(), problem.contact.begin() + all);
-  normal.problem.lower = problem.lower.head(all);
+  const std::vector<int>& bounded = problem.bounds.unknowns;
+  normal.problem.bounds = Bounds::lower_on({bounded.begin(), bounded.begin() + all}, problem.bounds.lower.head(all));
   normal.solution.u = solution.u;
   normal.solution.lambda = solution.lambda.head(all);
   normal.solution.active.assign(solution.active.begin(), solution.active.begin() + all);

@@ -44,7 +44,7 @@ class IteratedPenalty {
       ForwardError now =
           forward_error(problem_, u_, next, constraint_residual_, rho, result_.penalised_max_u, options_);
       // a load just above a force limit shows in the second residual, and not in the first
-      if (correction == 0 && moved > 0 && problem_.force_limit.size() > 0) now.relative = 1;
+      if (correction == 0 && moved > 0 && problem_.bounds.has_force_limits()) now.relative = 1;
       result_.history.push_back(largest > 0 ? moved / largest : 0);
       result_.counters.corrections = correction;
       if (now.within(options_.tolerance) || correction >= options_.max_corrections || !std::isfinite(moved))
@@ -66,7 +66,7 @@ class IteratedPenalty {
  private:
   /// Solves K du = r1 + delta^-1 B' M r2 + dlambda on the free unknowns, dp = (B du - r2) / delta, delta a row's penalty.
   Eigen::VectorXd outer_step(SplitResidual r) {
-    const std::vector<int>&unknown = factor_.ordering().dof, &contact = problem_.contact;
+    const std::vector<int>&unknown = factor_.ordering().dof, &contact = problem_.bounds.unknowns;
     const Eigen::VectorXd& delta = factor_.penalties();
     if (p_.size() > 0) {
       const Eigen::VectorXd share = Eigen::VectorXd::Constant(delta.size(), factor_.delta())
@@ -74,8 +74,8 @@ class IteratedPenalty {
       r.r1 += problem_.b.transpose() * problem_.m.cwiseProduct(r.r2).cwiseProduct(share) / factor_.delta();
     }
     const Eigen::VectorXd u_c = u_.high(contact), low_c = u_.low(contact);
-    const Bounds bounds =
-        Bounds{problem_.lower, problem_.upper, problem_.force_limit, contact_.lambda}.shifted_by(u_c).shifted_by(low_c);
+    const Eigen::VectorXd found = contact_.lambda.size() > 0 ? contact_.lambda : Eigen::VectorXd::Zero(u_c.size());
+    const ShiftedBounds bounds = ShiftedBounds(problem_.bounds.limits(), found).shifted_by(u_c).shifted_by(low_c);
     const BoundStatuses before = contact_.status;
     Eigen::VectorXd du = Eigen::VectorXd::Zero(problem_.size());
     du(unknown) =
@@ -84,7 +84,7 @@ class IteratedPenalty {
     const Eigen::VectorXd v = contact_.v.tail(bounds.count());
     for (int i = 0; i < bounds.count(); ++i)  // an active value is that of its bound, to the last digit
       if (const BoundStatus status = contact_.status[i]; is_active(status) && v(i) == bounds.prescribed(i, status))
-        u_.set(contact[i], status == BoundStatus::at_lower ? problem_.lower(i) : problem_.upper(i));
+        u_.set(contact[i], status == BoundStatus::at_lower ? problem_.bounds.lower(i) : problem_.bounds.upper(i));
     if (p_.size() == 0) return du;
     const Eigen::VectorXd dp = (problem_.b * du - r.r2).cwiseQuotient(delta);
     p_ += dp;
@@ -94,13 +94,13 @@ class IteratedPenalty {
     return du;
   }
 
-  void solve_contact_step(ContactSystem& system, const Bounds& bounds) {
+  void solve_contact_step(ContactSystem& system, const ShiftedBounds& bounds) {
     contact_ = contact_solver_(system, bounds, contact_, u_.high.lpNorm<Eigen::Infinity>());
     result_.counters.contact_iterations = std::max(result_.counters.contact_iterations, contact_.steps);
   }
 
   /// The contact problem condensed on the bounded unknowns, the last C places of the factor.
-  Eigen::VectorXd schur_step(Eigen::VectorXd r, const Bounds& bounds) {
+  Eigen::VectorXd schur_step(Eigen::VectorXd r, const ShiftedBounds& bounds) {
     const Eigen::Index c = bounds.count();
     Stopwatch watch;
     // the load on a bounded unknown itself stays out of the factor: a large load there, which the bound carries, would
@@ -123,7 +123,7 @@ class IteratedPenalty {
   }
 
   /// The same on all free places.
-  Eigen::VectorXd sparse_step(const Eigen::VectorXd& r, const Bounds& bounds) {
+  Eigen::VectorXd sparse_step(const Eigen::VectorXd& r, const ShiftedBounds& bounds) {
     const Stopwatch watch;
     std::vector<int> bounded(bounds.count());
     std::iota(bounded.begin(), bounded.end(), factor_.ordering().interior);
@@ -173,7 +173,7 @@ class IteratedPenalty {
     result_.status = std::move(contact_.status);
     result_.u = std::move(u_.high);
     result_.p = std::move(p_.high);
-    result_.lambda = contact_.lambda.size() > 0 ? contact_.lambda : Eigen::VectorXd::Zero(problem_.bound_count());
+    result_.lambda = contact_.lambda.size() > 0 ? contact_.lambda : Eigen::VectorXd::Zero(problem_.bounds.count());
     result_.error = now.absolute;  // absolute yet
     add_conditioning_error(problem_, factor_, constraint_residual_, result_);
     return std::move(result_);
@@ -210,7 +210,7 @@ Solution iterated_penalty(const VariationalInequality& problem, PenalisedCholesk
 }
 
 Solution active_set(const VariationalInequality& problem, PenalisedCholesky& factor, const ActiveSetOptions& options) {
-  const auto contact = [&](ContactSystem& system, const Bounds& bounds, const ContactResult& before, double) {
+  const auto contact = [&](ContactSystem& system, const ShiftedBounds& bounds, const ContactResult& before, double) {
     return solve_contact(system, bounds, before.status.empty() ? options.start : before.status,
                          options.max_contact_iterations);
   };

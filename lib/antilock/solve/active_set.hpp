@@ -92,12 +92,12 @@ Solution active_set(const VariationalInequality& problem, PenalisedCholesky& fac
                     const ActiveSetOptions& options = {});
 
 /// Solves the contact problem of one correction, in which v is an increment to the current iterate.
-/// The forces of `before` and of the result are total forces: Bounds holds those of the current
-/// iterate as a multiplier estimate. The factor determines whether the system is a
+/// The forces of `before` and of the result are total forces: ShiftedBounds holds those of the
+/// current iterate as a multiplier estimate. The factor determines whether the system is a
 /// SchurComplementContact or a SparseContact. `before` is the result of the last correction, and is
 /// empty in the first one. `u_scale` is the largest |u|.
 using ContactSolver =
-    std::function<ContactResult(ContactSystem&, const Bounds&, const ContactResult& before, double u_scale)>;
+    std::function<ContactResult(ContactSystem&, const ShiftedBounds&, const ContactResult& before, double u_scale)>;
 
 /// Runs the outer loop with any solver of the inner problem. `name` is the solver's name in
 /// messages. Throws as active_set does.

@@ -4,10 +4,11 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
-#include "antilock/core/eigen_memory.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 
@@ -30,47 +31,37 @@ using BoundStatuses = std::vector<BoundStatus>;
 /// Returns whether the bound prescribes v.
 inline bool is_active(BoundStatus status) { return status == BoundStatus::at_lower || status == BoundStatus::at_upper; }
 
-/// C bounds with their set-valued laws. A lower bound, two bounds, an equation and Tresca's
-/// friction differ only in the statuses that exist.
-struct Bounds {
-  Eigen::VectorXd lower;             ///< C; -infinity: no lower bound
-  Eigen::VectorXd upper = {};        ///< C, or empty: no upper bounds; +infinity: bound i has none
-  Eigen::VectorXd force_limit = {};  ///< C, or empty; the largest |lambda|; +infinity: a hard bound
-  /// C, or empty for 0: the multipliers lambda that the earlier corrections have found.
-  /// prescribed() and admissible_range() describe lambda - multiplier_estimate, the increment that
-  /// a correction solves for.
-  Eigen::VectorXd multiplier_estimate = {};
+/// C bounds with their set-valued laws, for the increments that a correction solves for: the limits
+/// are those of the increment of v, and `multiplier_estimate` shifts the forces. A lower bound, two
+/// bounds, an equation and Tresca's friction differ only in the statuses that exist.
+struct ShiftedBounds : BoundLimits {
+  /// C: the multipliers lambda that the earlier corrections have found. prescribed() and
+  /// admissible_range() describe lambda - multiplier_estimate.
+  Eigen::VectorXd multiplier_estimate;
 
   struct Interval {
     double low, high;
   };
 
-  int count() const { return static_cast<int>(lower.size()); }
-  /// Returns the upper bound i, or infinity where there is none.
-  double upper_or_infinity(int i) const {
-    return upper.size() > 0 ? upper(i) : std::numeric_limits<double>::infinity();
-  }
-  /// Returns the force limit of bound i, or infinity where it has none.
-  double force_limit_or_infinity(int i) const {
-    return force_limit.size() > 0 ? force_limit(i) : std::numeric_limits<double>::infinity();
-  }
-  /// Returns the multiplier estimate of bound i, or 0 where there are none.
-  double multiplier_or_zero(int i) const { return multiplier_estimate.size() > 0 ? multiplier_estimate(i) : 0; }
-  bool is_equation(int i) const { return lower(i) == upper_or_infinity(i); }
+  /// Makes the bounds of a first correction, whose multiplier estimate is 0.
+  ShiftedBounds(BoundLimits limits)
+      : BoundLimits(std::move(limits)), multiplier_estimate(Eigen::VectorXd::Zero(count())) {}
+  ShiftedBounds(BoundLimits limits, Eigen::VectorXd multipliers)
+      : BoundLimits(std::move(limits)), multiplier_estimate(std::move(multipliers)) {}
 
   /// Returns the quantity that `status` prescribes: v where the bound is active, else lambda -
   /// multiplier_estimate.
   double prescribed(int i, BoundStatus status) const {
     if (is_active(status)) return status == BoundStatus::at_lower ? lower(i) : upper(i);
-    return total_force(i, status, 0) - multiplier_or_zero(i);
+    return total_force(i, status, 0) - multiplier_estimate(i);
   }
 
   /// Returns lambda: multiplier_estimate + `reaction` where the bound is active, else the force
   /// that the status prescribes, without round-off.
   double total_force(int i, BoundStatus status, double reaction) const {
-    if (is_active(status)) return multiplier_or_zero(i) + reaction;
+    if (is_active(status)) return multiplier_estimate(i) + reaction;
     if (status == BoundStatus::inactive) return 0;
-    return status == BoundStatus::slip_below ? force_limit_or_infinity(i) : -force_limit_or_infinity(i);
+    return status == BoundStatus::slip_below ? force_limit(i) : -force_limit(i);
   }
 
   /// Returns the interval in which the quantity that `status` does not prescribe must lie: lambda -
@@ -81,14 +72,14 @@ struct Bounds {
       case BoundStatus::slip_below:
         return {-infinity, lower(i)};
       case BoundStatus::at_lower:
-        return {(is_equation(i) ? -force_limit_or_infinity(i) : 0) - multiplier_or_zero(i),
-                force_limit_or_infinity(i) - multiplier_or_zero(i)};
+        return {(is_equation(i) ? -force_limit(i) : 0) - multiplier_estimate(i),
+                force_limit(i) - multiplier_estimate(i)};
       case BoundStatus::at_upper:
-        return {-force_limit_or_infinity(i) - multiplier_or_zero(i), -multiplier_or_zero(i)};
+        return {-force_limit(i) - multiplier_estimate(i), -multiplier_estimate(i)};
       case BoundStatus::slip_above:
-        return {upper_or_infinity(i), infinity};
+        return {upper(i), infinity};
       default:
-        return {lower(i), upper_or_infinity(i)};
+        return {lower(i), upper(i)};
     }
   }
 
@@ -115,8 +106,8 @@ struct Bounds {
           fmt::format("contact: the start has {} statuses; accepted one per bound, {}", requested.size(), count()));
     for (int i = 0; i < count(); ++i) {
       BoundStatus& status = requested[i];
-      const bool low = std::isfinite(lower(i)), high = std::isfinite(upper_or_infinity(i)),
-                 is_soft = std::isfinite(force_limit_or_infinity(i));
+      const bool low = std::isfinite(lower(i)), high = std::isfinite(upper(i));
+      const bool is_soft = std::isfinite(force_limit(i));
       if (is_soft && ((status == BoundStatus::slip_below && low) || (status == BoundStatus::slip_above && high)))
         continue;
       if (is_equation(i) || (is_active(status) && low && !(status == BoundStatus::at_upper && high)))
@@ -128,8 +119,8 @@ struct Bounds {
   }
 
   /// Returns the same bounds for v - u; u has C entries.
-  Bounds shifted_by(const Eigen::VectorXd& u) const {
-    return {lower - u, upper.size() > 0 ? Eigen::VectorXd(upper - u) : upper, force_limit, multiplier_estimate};
+  ShiftedBounds shifted_by(const Eigen::VectorXd& u) const {
+    return {BoundLimits(lower - u, upper - u, force_limit), multiplier_estimate};
   }
 };
 

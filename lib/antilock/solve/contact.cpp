@@ -21,7 +21,8 @@ struct Breakpoint {
   double step{};            ///< the fraction of the search direction after which the value is there
 };
 
-FixedStatusSolution solve_with_fixed_status(ContactSystem& system, const Bounds& bounds, const BoundStatuses& status) {
+FixedStatusSolution solve_with_fixed_status(ContactSystem& system, const ShiftedBounds& bounds,
+                                            const BoundStatuses& status) {
   std::vector<char> active(status.size());
   Eigen::VectorXd prescribed(bounds.count());
   for (int i = 0; i < bounds.count(); ++i) {
@@ -32,8 +33,8 @@ FixedStatusSolution solve_with_fixed_status(ContactSystem& system, const Bounds&
 }
 
 /// The active bounds whose forces are outside their ranges, or (`active` = false) the others whose values are.
-std::vector<Breakpoint> violations(const Bounds& bounds, const BoundStatuses& status, const FixedStatusSolution& now,
-                                   const std::vector<int>& dof_of, bool active) {
+std::vector<Breakpoint> violations(const ShiftedBounds& bounds, const BoundStatuses& status,
+                                   const FixedStatusSolution& now, const std::vector<int>& dof_of, bool active) {
   std::vector<Breakpoint> violations;
   for (int i = 0; i < bounds.count(); ++i) {
     if (is_active(status[i]) != active) continue;
@@ -76,8 +77,8 @@ void projected_search(const ContactSystem& system, std::vector<Breakpoint>& brea
 
 }  // namespace
 
-ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const std::optional<BoundStatuses>& start,
-                            int max_iterations) {
+ContactResult solve_contact(ContactSystem& system, const ShiftedBounds& bounds,
+                            const std::optional<BoundStatuses>& start, int max_iterations) {
   BoundStatuses status = bounds.nearest_valid(start ? *start : system.nested_start(bounds, max_iterations));
   std::set<BoundStatuses> visited_faces;  // whose minimisers were feasible
   Eigen::VectorXd v;
@@ -104,15 +105,16 @@ ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const s
   }
 }
 
-BoundStatuses coarse_start(const Bounds& bounds, ContactSystem& coarse, int max_iterations) {
+BoundStatuses coarse_start(const ShiftedBounds& bounds, ContactSystem& coarse, int max_iterations) {
   const int count = bounds.count();
   const auto every_second = [](const Eigen::VectorXd& of_all) {
     return Eigen::VectorXd(of_all(Eigen::seqN(1, of_all.size() / 2, 2)));
   };
-  Bounds fewer{every_second(bounds.lower), every_second(bounds.upper), every_second(bounds.force_limit),
-               every_second(bounds.multiplier_estimate)};
+  ShiftedBounds fewer(
+      BoundLimits(every_second(bounds.lower), every_second(bounds.upper), every_second(bounds.force_limit)),
+      every_second(bounds.multiplier_estimate));
   // a bound carries its own force, and half of that of each neighbour that is left out
-  for (int i = 0; i < count && bounds.force_limit.size() > 0; i += 2)
+  for (int i = 0; i < count; i += 2)
     for (const int neighbour : {i / 2 - 1, i / 2})
       if (neighbour >= 0 && neighbour < fewer.count() && std::isfinite(bounds.force_limit(i)))
         fewer.force_limit(neighbour) += 0.5 * bounds.force_limit(i);

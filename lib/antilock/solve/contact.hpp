@@ -33,7 +33,7 @@ class ContactSystem {
   virtual double energy_norm_squared(const Eigen::VectorXd& d) const = 0;  ///< d' K d
   /// Returns C statuses to start from: those of the solution of a smaller problem of the same kind,
   /// transferred to all bounds (nested iteration). Throws as solve_contact does.
-  virtual BoundStatuses nested_start(const Bounds& bounds, int max_iterations) = 0;
+  virtual BoundStatuses nested_start(const ShiftedBounds& bounds, int max_iterations) = 0;
   const std::vector<int>& bounded() const { return bounded_; }  ///< C: bound -> unknown
 
  private:
@@ -52,8 +52,8 @@ struct ContactResult {
 ///
 /// over all v with lower_i <= v_i <= upper_i at the hard bounds i. The sum is over the bounds with
 /// a force limit g_i. Equivalently lambda = K v - q, and each pair (v_i, lambda_i) satisfies the
-/// law of bound i (bound_status.hpp). If Bounds has a multiplier estimate, the q of these formulas
-/// is the q of the system minus the estimate, and lambda is the total force.
+/// law of bound i (bound_status.hpp). The q of these formulas is the q of the system minus the
+/// multiplier estimate of `bounds`, and lambda is the total force.
 ///
 /// The method is an active set method with a projected search. A status prescribes either the value
 /// or the force of its bound. The *face* of given statuses is the set of all v with v_i at its
@@ -137,13 +137,13 @@ struct ContactResult {
 ///
 /// `start` has C statuses. Without it the iteration starts from ContactSystem::nested_start. Throws
 /// NotConverged after max_iterations linear systems, and Error where K is not positive definite.
-ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const std::optional<BoundStatuses>& start,
-                            int max_iterations);
+ContactResult solve_contact(ContactSystem& system, const ShiftedBounds& bounds,
+                            const std::optional<BoundStatuses>& start, int max_iterations);
 
 /// Returns C statuses to start from. `coarse` is the same problem with only every second bound (1,
 /// 3, 5, ...), and its solution gives the statuses of these bounds. Each of the other bounds takes
 /// the status of its two neighbours in the order of the bounds if they agree, and is inactive
 /// otherwise. Throws as solve_contact does.
-BoundStatuses coarse_start(const Bounds& bounds, ContactSystem& coarse, int max_iterations);
+BoundStatuses coarse_start(const ShiftedBounds& bounds, ContactSystem& coarse, int max_iterations);
 
 }  // namespace antilock

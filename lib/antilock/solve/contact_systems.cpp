@@ -83,7 +83,7 @@ FixedStatusSolution SchurComplementContact::solve(const std::vector<char>& activ
   return now;
 }
 
-BoundStatuses SchurComplementContact::nested_start(const Bounds& bounds, int max_iterations) {
+BoundStatuses SchurComplementContact::nested_start(const ShiftedBounds& bounds, int max_iterations) {
   const int fine = bounds.count(), coarse = fine / 2;
   if (fine <= 1) return BoundStatuses(fine, BoundStatus::inactive);
   const auto bounded = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
@@ -113,7 +113,7 @@ FixedStatusSolution SparseContact::solve(const std::vector<char>& active, const 
   return now;
 }
 
-BoundStatuses SparseContact::nested_start(const Bounds& bounds, int max_iterations) {
+BoundStatuses SparseContact::nested_start(const ShiftedBounds& bounds, int max_iterations) {
   BoundStatuses start(bounded().size(), BoundStatus::inactive);
   if (bounded().size() <= 1) return start;
   const SparseMatrix whole = k_.upper_triangle().selfadjointView<Eigen::Upper>();
@@ -139,10 +139,9 @@ BoundStatuses SparseContact::nested_start(const Bounds& bounds, int max_iteratio
     return Eigen::VectorXd((count > 0).select(all / count, none));
   };
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  Bounds fewer{mean(bounds.lower, -infinity)};
-  if (bounds.upper.size() > 0) fewer.upper = mean(bounds.upper, infinity);
-  if (bounds.force_limit.size() > 0) fewer.force_limit = sum(bounds.force_limit);
-  if (bounds.multiplier_estimate.size() > 0) fewer.multiplier_estimate = sum(bounds.multiplier_estimate);
+  const ShiftedBounds fewer(
+      BoundLimits(mean(bounds.lower, -infinity), mean(bounds.upper, infinity), sum(bounds.force_limit)),
+      sum(bounds.multiplier_estimate));
   // P = (I - 2/3 D^-1 K) P0, P0 = 1 on the members of a group: the weight is Vanek's 4/3 over the largest eigenvalue of
   // D^-1 K, about 2 for first derivatives
   const Eigen::VectorXd weight = (2.0 / 3) * whole.diagonal().cwiseInverse();

@@ -19,7 +19,7 @@ class SchurComplementContact final : public ContactSystem {
   /// condensed out, so that S is exact for energies of any order. The matrix P' S P, where P
   /// interpolates linearly between every second unknown, would be far too stiff for a beam, because
   /// interpolated functions have kinks and the bending energy of a kink is infinite.
-  BoundStatuses nested_start(const Bounds& bounds, int max_iterations) override;
+  BoundStatuses nested_start(const ShiftedBounds& bounds, int max_iterations) override;
 
   const Eigen::MatrixXd& s() const { return s_; }
   const Eigen::VectorXd& q() const { return q_; }
@@ -50,7 +50,7 @@ class SparseContact final : public ContactSystem {
   /// functions have no energy. Constant rotations of beams and plates have energy. For such a
   /// matrix the start is the solution with only every second bound (coarse_start). This is right
   /// for every K, but each of its iterations factors the whole K.
-  BoundStatuses nested_start(const Bounds& bounds, int max_iterations) override;
+  BoundStatuses nested_start(const ShiftedBounds& bounds, int max_iterations) override;
 
  private:
   ConstrainedCholesky& k_;

@@ -20,7 +20,7 @@ constexpr double eps = defaults::eps, infinite = std::numeric_limits<double>::in
 bool may_be_infeasible(const VariationalInequality& problem) {
   const bool zero_is_admissible =
       problem.dirichlet_values.isZero(0) &&
-      (distance_to_bound(problem, Eigen::VectorXd::Zero(problem.size())).array() >= 0).all();
+      (distance_to_bound(problem.bounds, Eigen::VectorXd::Zero(problem.size())).array() >= 0).all();
   return (problem.compliances().array() == 0).any() && !zero_is_admissible;
 }
 
@@ -62,10 +62,10 @@ double smallest_feasible_norm(const VariationalInequality& problem, const Double
   };
   for (std::size_t k = 0; k < problem.dirichlet_dofs.size(); ++k)
     bounded_by(problem.dirichlet_dofs[k], problem.dirichlet_values(static_cast<Eigen::Index>(k)));
-  const Bounds bounds{problem.lower, problem.upper, problem.force_limit};
+  const Bounds& bounds = problem.bounds;
   for (int i = 0; i < bounds.count(); ++i) {
-    const double bound = z.high(problem.contact[i]) > 0 ? bounds.lower(i) : bounds.upper_or_infinity(i);
-    if (std::isfinite(bound) && std::isinf(bounds.force_limit_or_infinity(i))) bounded_by(problem.contact[i], bound);
+    const double bound = z.high(bounds.unknowns[i]) > 0 ? bounds.lower(i) : bounds.upper(i);
+    if (std::isfinite(bound) && std::isinf(bounds.force_limit(i))) bounded_by(bounds.unknowns[i], bound);
   }
   if (weight > 0) d -= defaults::row_tolerance * terms.dot(u.cwiseAbs().cwiseMin(data / weight));
   return d > 0 ? d / (s + z.high.lpNorm<1>()) : 0;
@@ -83,7 +83,7 @@ ForwardError forward_error(const VariationalInequality& problem, const DoubleDou
                options.contact_tolerance);
   const bool by_itself = may_be_infeasible(problem);
   double data = problem.dirichlet_values.size() > 0 ? problem.dirichlet_values.lpNorm<Eigen::Infinity>() : 0;
-  for (const Eigen::VectorXd* bound : {&problem.lower, &problem.upper})
+  for (const Eigen::VectorXd* bound : {&problem.bounds.lower, &problem.bounds.upper})
     for (const double b : *bound)
       if (std::isfinite(b)) data = std::max(data, std::abs(b));
   const double to_come = next_correction / (1 - contraction);
@@ -145,7 +145,7 @@ ConstraintDefect constraint_defect(const VariationalInequality& problem, const E
   Eigen::VectorXd movable = Eigen::VectorXd::Ones(columns);
   movable(problem.dirichlet_dofs).setZero();
   for (std::size_t i = 0; i < status.size(); ++i)
-    if (is_active(status[i])) movable(problem.contact[i]) = 0;
+    if (is_active(status[i])) movable(problem.bounds.unknowns[i]) = 0;
   const Eigen::VectorXd stiff = (compliance.array() == 0).cast<double>();
   b = stiff.asDiagonal() * step.leftCols(columns) * movable.asDiagonal();
   defect.infeasible_part = Eigen::VectorXd(-stiff.cwiseProduct(constraint_residual));

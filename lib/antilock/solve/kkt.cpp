@@ -69,8 +69,8 @@ Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector
   return forces;
 }
 
-void add_bound(Kkt& kkt, const Bounds& bounds, int i, double value, double lambda, double reach, double force) {
-  const double lower = bounds.lower(i), upper = bounds.upper_or_infinity(i), limit = bounds.force_limit_or_infinity(i);
+void add_bound(Kkt& kkt, const BoundLimits& bounds, int i, double value, double lambda, double reach, double force) {
+  const double lower = bounds.lower(i), upper = bounds.upper(i), limit = bounds.force_limit(i);
   const bool soft = std::isfinite(limit);
   // between two bounds either sign of lambda is right, and each side answers for its own
   const bool two = std::isfinite(lower) && std::isfinite(upper);
@@ -95,23 +95,24 @@ void add_bound(Kkt& kkt, const Bounds& bounds, int i, double value, double lambd
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   check_data(problem);
   const Eigen::VectorXd &u = solution.u, &p = solution.p, &lambda = solution.lambda;
-  if (u.size() != problem.size() || p.size() != problem.b.rows() || lambda.size() != problem.bound_count())
+  if (u.size() != problem.size() || p.size() != problem.b.rows() || lambda.size() != problem.bounds.count())
     throw Error(fmt::format("kkt: u, p and lambda have {}, {} and {} entries; accepted {}, {} and {}", u.size(),
-                            p.size(), lambda.size(), problem.size(), problem.b.rows(), problem.bound_count()));
+                            p.size(), lambda.size(), problem.size(), problem.b.rows(), problem.bounds.count()));
   Kkt kkt;
   if (!u.allFinite() || !p.allFinite() || !lambda.allFinite()) {  // Eigen's maxima may pass over what is not a number
     kkt.residual = unbounded;
     return kkt;
   }
-  const int contact = static_cast<int>(problem.contact.size());
+  const Bounds& bounds = problem.bounds;
+  const int contact = static_cast<int>(bounds.unknowns.size());
   const auto each_of = [&](int bound, const auto& of) {  // the unknowns of a bound, and how much it holds of each
-    if (bound < contact) return of(problem.contact[bound], 1.0);
-    for (RowMatrix::InnerIterator c(problem.constraints, bound - contact); c; ++c)
+    if (bound < contact) return of(bounds.unknowns[bound], 1.0);
+    for (RowMatrix::InnerIterator c(bounds.constraints, bound - contact); c; ++c)
       if (c.value() != 0) of(static_cast<int>(c.col()), c.value());
   };
   KktParts parts = kkt_parts(problem, u, p);
   double largest_force = problem.load.lpNorm<Eigen::Infinity>();
-  for (int i = 0; i < problem.bound_count(); ++i)
+  for (int i = 0; i < bounds.count(); ++i)
     each_of(i, [&](int unknown, double c) {
       parts.add_force(unknown, c * lambda(i));
       largest_force = std::max(largest_force, std::abs(c * lambda(i)));
@@ -127,9 +128,8 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   }
   const double largest_u = std::max(u.lpNorm<Eigen::Infinity>(), KktTolerances{}.fail * solution.penalised_max_u);
   const Eigen::VectorXd forces = add_equations(kkt, parts, fixed, largest_u, largest_force, with_reactions);
-  if (problem.bound_count() == 0) return kkt;
-  const Bounds bounds{problem.lower, problem.upper, problem.force_limit};
-  const Eigen::VectorXd values = bounded_values(problem, u);
+  if (bounds.count() == 0) return kkt;
+  const Eigen::VectorXd values = bounded_values(bounds, u);
   kkt.min_gap = kkt.min_pressure = unbounded;
   for (int i = 0; i < bounds.count(); ++i) {  // each in its own units
     double most_of_it = 0, force = unbounded;

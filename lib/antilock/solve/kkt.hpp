@@ -98,6 +98,6 @@ Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector
                               double with_reactions);
 /// Adds the gap, pressure and complementarity of bound i to the report. `value` is s_i, `reach` is
 /// reach_i and `force` is force_i.
-void add_bound(Kkt& kkt, const Bounds& bounds, int i, double value, double lambda, double reach, double force);
+void add_bound(Kkt& kkt, const BoundLimits& bounds, int i, double value, double lambda, double reach, double force);
 
 }  // namespace antilock

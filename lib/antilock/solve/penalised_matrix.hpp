@@ -7,15 +7,15 @@
 namespace antilock {
 
 /// The order of the n_free unknowns that are solved for: the free unknowns without a bound in their
-/// own order, then the contact unknowns in the order of VariationalInequality::contact.
+/// own order, then the bounded unknowns in the order of Bounds::unknowns.
 struct DofOrdering {
   explicit DofOrdering(const VariationalInequality& problem) : position(problem.size(), 0) {
-    for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.contact})
+    for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.bounds.unknowns})
       for (const int i : *list) position[i] = -1;
     for (int i = 0; i < problem.size(); ++i)
       if (position[i] == 0) append(i);
     interior = static_cast<int>(dof.size());
-    for (const int i : problem.contact) append(i);
+    for (const int i : problem.bounds.unknowns) append(i);
   }
   /// Returns the number of contact unknowns.
   int contact_count() const { return static_cast<int>(dof.size()) - interior; }

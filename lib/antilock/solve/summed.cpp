@@ -71,7 +71,7 @@ class CgIlut {
 
 SummedSystem summed_system(const VariationalInequality& problem, const std::string& who, const char* instead) {
   check(problem);
-  require_lower_bounds(problem, who);
+  require_lower_bounds(problem.bounds, who);
   if (problem.b.rows() > 0 && problem.compliance == 0)
     throw Error(fmt::format(
         "{}: the summed matrix does not exist at epsilon = 0; accepted epsilon > 0, or the solver {}", who, instead));
@@ -98,7 +98,7 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
   const Stopwatch watch;
   const auto [ordering, k, b, given] = summed_system(problem, "naive", "active_set");
   const SparseMatrix both_triangles = k.selfadjointView<Eigen::Upper>();
-  const int size = static_cast<int>(b.size()), c = static_cast<int>(problem.contact.size());
+  const int size = static_cast<int>(b.size()), c = static_cast<int>(problem.bounds.unknowns.size());
   NaiveResult result;
   Solution& s = result.solution;
   s.solver = kind == SummedFactor::cholesky ? "naive, Cholesky of the sum" : "naive, LU of the sum";
@@ -118,7 +118,7 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
     std::vector<int> inactive;
     for (int i = 0; i < size; ++i)
       if (const int contact = i - ordering.interior; contact >= 0 && s.active[contact])
-        x(i) = problem.lower(contact);
+        x(i) = problem.bounds.lower(contact);
       else
         inactive.push_back(i);
     SparseMatrix chosen(size, static_cast<Eigen::Index>(inactive.size()));
@@ -138,7 +138,7 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
     s.lambda.setZero();
     for (int i = 0; i < c; ++i) {
       if (s.active[i]) s.lambda(i) = force(i);
-      const double gap = x(ordering.interior + i) - problem.lower(i);
+      const double gap = x(ordering.interior + i) - problem.bounds.lower(i);
       if (!(s.active[i] ? force(i) < 0 : gap < 0)) continue;
       s.active[i] = !s.active[i];
       converged = false;
@@ -169,7 +169,7 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
   s.solver = who;
   s.seconds.factor = stage.lap();
   s.u = given;
-  const auto c = static_cast<Eigen::Index>(problem.contact.size()), f = load.size();
+  const auto c = static_cast<Eigen::Index>(problem.bounds.unknowns.size()), f = load.size();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(f);
 
   double rho = options.step_length.value_or(0);
@@ -188,9 +188,9 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
     b.tail(c) += lambda;
     x = solve(b, x);
     if (c == 0) break;
-    const Eigen::VectorXd gap = x.tail(c) - problem.lower;
+    const Eigen::VectorXd gap = x.tail(c) - problem.bounds.lower;
     const Eigen::VectorXd next = (lambda - rho * gap).cwiseMax(0.0);
-    const double scale = std::max(x.cwiseAbs().maxCoeff(), problem.lower.cwiseAbs().maxCoeff());
+    const double scale = std::max(x.cwiseAbs().maxCoeff(), problem.bounds.lower.cwiseAbs().maxCoeff());
     const double change = scale > 0 ? (next - lambda).cwiseAbs().maxCoeff() / rho / scale : 0;
     s.history.push_back(change);
     if (change <= options.tolerance) break;  // lambda and x still belong together

@@ -26,15 +26,15 @@ constexpr int check_interval = 32;
 /// lambda) / 2 + lambda bound (the lower one where lambda > 0, the upper one where lambda < 0), which simplifies to
 ///     lambda (v+ - bound) + d S d / 2,   d = v+ - v the penetration.
 /// A bound with a force limit moves nothing and adds the work that it takes up, the limit times the distance.
-double duality_gap(const Eigen::MatrixXd& s, const Bounds& bounds, const ContactResult& result) {
+double duality_gap(const Eigen::MatrixXd& s, const BoundLimits& bounds, const ContactResult& result) {
   Eigen::VectorXd inside = result.v;
   double work = 0;
   for (int i = 0; i < bounds.count(); ++i) {
-    const double low = bounds.lower(i), high = bounds.upper_or_infinity(i), lambda = result.lambda(i);
-    if (std::isinf(bounds.force_limit_or_infinity(i))) inside(i) = std::clamp(inside(i), low, high);
+    const double low = bounds.lower(i), high = bounds.upper(i), lambda = result.lambda(i);
+    if (std::isinf(bounds.force_limit(i))) inside(i) = std::clamp(inside(i), low, high);
     const double penetration = std::max(low - inside(i), inside(i) - high);
     if (lambda != 0) work += lambda * (inside(i) - (lambda > 0 ? low : high));
-    if (penetration > 0) work += bounds.force_limit_or_infinity(i) * penetration;
+    if (penetration > 0) work += bounds.force_limit(i) * penetration;
   }
   const Eigen::VectorXd d = inside - result.v;
   return work + 0.5 * d.dot(s * d);
@@ -45,13 +45,13 @@ class CondensedUzawa {
  public:
   CondensedUzawa(const PenalisedCholesky& factor, const UzawaOptions& options) : factor_(factor), options_(options) {}
 
-  ContactResult operator()(const ContactSystem& system, const Bounds& asked, const ContactResult& before,
+  ContactResult operator()(const ContactSystem& system, const ShiftedBounds& asked, const ContactResult& before,
                            double u_scale) {
     const auto& given = dynamic_cast<const SchurComplementContact&>(system);
-    const Bounds bounds{asked.lower, asked.upper, asked.force_limit};
+    const BoundLimits& bounds = asked;
     if (factor_.delta() != delta_) condense(given.s());  // the corrections may have taken another penalty
     Eigen::VectorXd q = given.q();                       // the steps are taken on whole forces
-    if (asked.multiplier_estimate.size() > 0) q -= asked.multiplier_estimate;
+    q -= asked.multiplier_estimate;
     ContactResult result;
     // the step is taken on f = q + lambda >= q: where the obstacle carries a large load, little is left of the two
     Eigen::VectorXd f = q;
@@ -89,13 +89,12 @@ class CondensedUzawa {
 
  private:
   /// The status of (v, lambda): a bound with a force is active, unless the force is at its limit.
-  BoundStatus status_of(const Bounds& bounds, int i, double q, double f, ContactResult& result) const {
-    const double limit = bounds.force_limit_or_infinity(i);
+  BoundStatus status_of(const BoundLimits& bounds, int i, double q, double f, ContactResult& result) const {
+    const double limit = bounds.force_limit(i);
     const bool low = f >= q + limit, high = f <= q - limit;
     if (low || high) {
       result.lambda(i) = low && high ? 0 : low ? limit : -limit;
-      if (low && high && result.v(i) >= bounds.lower(i) && result.v(i) <= bounds.upper_or_infinity(i))
-        return BoundStatus::inactive;
+      if (low && high && result.v(i) >= bounds.lower(i) && result.v(i) <= bounds.upper(i)) return BoundStatus::inactive;
       return low && (!high || result.v(i) < bounds.lower(i)) ? BoundStatus::slip_below : BoundStatus::slip_above;
     }
     if (bounds.is_equation(i) || f > q) return BoundStatus::at_lower;
@@ -104,13 +103,11 @@ class CondensedUzawa {
 
   /// lambda <- max(0, lambda - rho (v - lower)) + min(0, lambda - rho (v - upper)): of the two terms one is zero. In f
   /// that is q, moved up to f - rho (v - lower) or down to f - rho (v - upper), and no further than the force limit.
-  Eigen::VectorXd projected_step(const Bounds& bounds, const Eigen::VectorXd& q, const Eigen::VectorXd& f,
+  Eigen::VectorXd projected_step(const BoundLimits& bounds, const Eigen::VectorXd& q, const Eigen::VectorXd& f,
                                  const Eigen::VectorXd& v) const {
-    Eigen::VectorXd next = q;
-    if (bounds.upper.size() > 0) next = next.cwiseMin(f - rho_.cwiseProduct(v - bounds.upper));
+    Eigen::VectorXd next = q.cwiseMin(f - rho_.cwiseProduct(v - bounds.upper));
     next = next.cwiseMax(f - rho_.cwiseProduct(v - bounds.lower));
-    if (bounds.force_limit.size() > 0) next = next.cwiseMax(q - bounds.force_limit).cwiseMin(q + bounds.force_limit);
-    return next;
+    return next.cwiseMax(q - bounds.force_limit).cwiseMin(q + bounds.force_limit);
   }
 
   void condense(const Eigen::MatrixXd& s) {
@@ -162,7 +159,7 @@ Solution uzawa(const VariationalInequality& problem, PenalisedCholesky& factor, 
   if (factor.sparse_factor() != nullptr) factor.contact_block();  // says that there is none
   CondensedUzawa contact(factor, options);
   Solution solution = iterated_penalty(problem, factor, std::ref(contact), corrections, "uzawa");
-  if (problem.bound_count() == 0) return solution;
+  if (problem.bounds.count() == 0) return solution;
   solution.counters.contact_iterations = static_cast<int>(contact.history.size());
   solution.history = std::move(contact.history);
   return solution;

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <tuple>
-
 #include "antilock/core/error.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 
@@ -27,24 +25,24 @@ void Sweep::set_load(Eigen::VectorXd load) {
 }
 
 void Sweep::set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upper) {
-  if (problem_.contact.empty()) throw Error("sweep: no unknown is bounded; accepted: a problem with contact");
-  const auto before = std::pair(problem_.lower, problem_.upper);
-  problem_.lower = std::move(lower);
-  if (upper) problem_.upper = std::move(*upper);
+  if (problem_.bounds.unknowns.empty()) throw Error("sweep: no unknown is bounded; accepted: a problem with contact");
+  const BoundLimits before = problem_.bounds.limits();
+  problem_.bounds.lower = std::move(lower);
+  if (upper) problem_.bounds.upper = std::move(*upper);
   try {
     check_bounds(problem_);
   } catch (const Error&) {
-    std::tie(problem_.lower, problem_.upper) = before;
+    static_cast<BoundLimits&>(problem_.bounds) = before;
     throw;
   }
 }
 
 void Sweep::set_force_limit(Eigen::VectorXd force_limit) {
-  std::swap(problem_.force_limit, force_limit);
+  std::swap(problem_.bounds.force_limit, force_limit);
   try {
     check_bounds(problem_);
   } catch (const Error&) {
-    std::swap(problem_.force_limit, force_limit);
+    std::swap(problem_.bounds.force_limit, force_limit);
     throw;
   }
 }

@@ -28,8 +28,7 @@ class Sweep {
   /// Sets the bounds, C entries each as in the problem. Without `upper` the upper bounds stay.
   /// Throws Error if no unknown is bounded, and as check_bounds does.
   void set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upper = {});
-  /// Sets the force limits, C entries or none, as in the problem. Throws Error as check_bounds
-  /// does.
+  /// Sets the force limits, C entries as in the problem. Throws Error as check_bounds does.
   void set_force_limit(Eigen::VectorXd force_limit);
 
   /// Returns the solution. Its counters contain the operations of this solve only. Every solve uses

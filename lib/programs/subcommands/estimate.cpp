@@ -154,8 +154,8 @@ Bound conforming_bound(const Scene& scene, const Space& space, const Variational
     v(problem.dirichlet_dofs[i]) = problem.dirichlet_values(Eigen::Index(i));
   if (scene.contact()) {
     const Eigen::VectorXd lower = admissible_bounds(*scene.contact(), space, v);
-    for (std::size_t i = 0; i < problem.contact.size(); ++i)
-      v(problem.contact[i]) = std::max(v(problem.contact[i]), lower(Eigen::Index(i)));
+    for (std::size_t i = 0; i < problem.bounds.unknowns.size(); ++i)
+      v(problem.bounds.unknowns[i]) = std::max(v(problem.bounds.unknowns[i]), lower(Eigen::Index(i)));
   }
   const double norm = energy_norm(problem, v, v), moved = energy_norm(problem, v - given, v);
   double work = 0;  // int f v, by a finer rule than the load's: what this mesh misses of f must not count as energy

@@ -67,6 +67,7 @@ void read_bounds(const std::filesystem::path& path, VariationalInequality& probl
   for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
     fixed[problem.dirichlet_dofs[i]] = problem.dirichlet_values(static_cast<Eigen::Index>(i));
   const CsvForm form{.optional_columns = 1, .infinite = true};
+  std::vector<int> bounded;
   std::vector<double> lower, upper;
   for (const auto& [unknown, row] : by_unknown(path, {"unknown", "lower", "upper"}, problem.a1.rows(), form)) {
     const double low = bound_or_infinity(row.values(0));
@@ -81,16 +82,14 @@ void read_bounds(const std::filesystem::path& path, VariationalInequality& probl
                       "no row",
                       row.place, low, high, value->second));
     if (value != fixed.end() || (low == -infinity && high == infinity)) continue;
-    problem.contact.push_back(unknown);
+    bounded.push_back(unknown);
     lower.push_back(low);
     upper.push_back(high);
   }
   const auto given = [](const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   };
-  problem.lower = given(lower);
-  if (std::any_of(upper.begin(), upper.end(), [](double high) { return high < infinity; }))
-    problem.upper = given(upper);
+  problem.bounds = {bounded, {given(lower), given(upper)}};
 }
 
 VariationalInequality read_problem(const Files& files) {
@@ -143,7 +142,7 @@ ComplianceTable solve_all(const VariationalInequality& problem, const std::strin
     rows.col(1) = Eigen::VectorXd::LinSpaced(n, 0, double(n - 1));
     rows.col(2) = solution.u;
     rows.col(3).setZero();
-    rows(problem.contact, 3) = solution.lambda;
+    rows(problem.bounds.unknowns, 3) = solution.lambda;
   }
   return found;
 }

@@ -53,7 +53,7 @@ class Problem(_antilock.Problem):
         if force_bound is not None and force_limit is not None:
             raise Error("force_bound is the name of force_limit in 0.2; accepted: one of them")
         name, given = ("force_limit", force_limit) if force_bound is None else ("force_bound", force_bound)
-        limits = [] if given is None else arguments.vector(name, given, n)[bounded]
+        limits = None if given is None else arguments.vector(name, given, n)[bounded]
         super().__init__(a1, b, m, load, compliance, list(held), list(held.values()), np.flatnonzero(bounded),
                          low[bounded], high[bounded], limits)
 

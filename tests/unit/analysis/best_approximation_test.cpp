@@ -48,8 +48,7 @@ TEST(BestApproximation, TheKernelIsFartherAndHoldsItsCondition) {
 TEST(BestApproximation, TheFunctionalIsPartOfWhatIsMinimised) {
   const Space space(structured_mesh(8), p1());
   auto problem = test::stiff_problem(space, 0);
-  problem.contact.clear();  // then the derivative of |u - v|_h^2 + load . v vanishes at the smallest value
-  problem.lower.resize(0);
+  problem.bounds = {};  // then the derivative of |u - v|_h^2 + load . v vanishes at the smallest value
   const Eigen::VectorXd load = load_vector(space, paper_load);
   const BestApproximation found = best_approximation(space, problem, tent, AdmissibleSet::k_h, load);
   Eigen::VectorXd derivative = 2 * (h1_gram_matrix(space) * found.v - h1_products(space, tent)) + load;
@@ -66,7 +65,7 @@ TEST(DualNorm, OfARieszRepresentativeIsItsNorm) {
   for (const int i : problem.dirichlet_dofs) w(i) = 0;
   const double all = dual_norm(problem, norm, norm * w), in_kernel = dual_norm(problem, norm, norm * w, true);
   VariationalInequality other = problem;  // a norm knows no bounds and no given values
-  other.upper = Eigen::VectorXd::Ones(other.lower.size());
+  other.bounds.upper = Eigen::VectorXd::Ones(other.bounds.lower.size());
   other.dirichlet_values.setOnes();
   EXPECT_EQ(dual_norm(other, norm, norm * w), all);
   EXPECT_NEAR(all, std::sqrt(w.dot(norm * w)), 1e-10 * all);

@@ -2,7 +2,6 @@
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/project_strain.hpp"
-#include "antilock/problem/bounds.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/space/space.hpp"
 #include "support/platen.hpp"
@@ -17,7 +16,7 @@ std::vector<double> inf_sup_constants(const Element& element, bool per_vertex, b
   for (const int n : {4, 8, 12}) {
     const Space space(block(n), element);
     const VariationalInequality problem = rubber(space, per_vertex);
-    std::vector<bool> active(problem.contact.size());
+    std::vector<bool> active(problem.bounds.unknowns.size());
     if (contact) active = active_set(problem).active;
     const VariationalInequality held = equality_constrained(problem, active);
     beta.push_back(inf_sup(multiplier_gram(held, held.a1), Eigen::MatrixXd(held.m.asDiagonal())));
@@ -73,7 +72,7 @@ double inf_sup_of_boxes(const TriangleMesh& mesh, int n, bool contact) {
         parts.emplace_back(static_cast<int>(g), 16 * static_cast<int>(share.col()) + k, share.value());
   StrainProjection of_all(boxes.rows(), 16 * boxes.cols());
   of_all.setFromTriplets(parts.begin(), parts.end());
-  std::vector<bool> held(problem.contact.size());
+  std::vector<bool> held(problem.bounds.unknowns.size());
   if (contact) held = active_set(project_strain(problem, boxes, 0.5)).active;
   const VariationalInequality here = equality_constrained(project_strain(problem, boxes), held),
                               there = equality_constrained(project_strain(stiff_problem(all, 0), of_all),
@@ -99,7 +98,8 @@ TEST(InfSupUnderContact, IsZeroWhereAConfinedBlockIsHeldAllRound) {
   for (const Element* element : {&p1_bubble(), &p2()}) {
     const Space space(mesh, *element);
     VariationalInequality problem = rubber(space, true);
-    const VariationalInequality held = equality_constrained(problem, std::vector<bool>(problem.contact.size(), true));
+    const VariationalInequality held =
+        equality_constrained(problem, std::vector<bool>(problem.bounds.unknowns.size(), true));
     EXPECT_EQ(inf_sup(multiplier_gram(held, held.a1), Eigen::MatrixXd(held.m.asDiagonal())), 0) << element->name();
     // pushed by .1 into a groove of .083: no motion keeps the volume
     EXPECT_THROW(active_set(problem), NotConverged) << element->name();

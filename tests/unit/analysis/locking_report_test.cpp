@@ -26,7 +26,8 @@ namespace antilock::test::analysis_test::locking_report_test {
 double energy_with_held_layer(const Space& space, VariationalInequality problem, double u) {
   problem = assemble_fixed_rows(std::move(problem));  // a body or a layer that is far stiffer than the other stays
   problem.b.resize(0, problem.size()), problem.m.resize(0);
-  problem.contact.clear(), problem.lower.resize(0), problem.upper.resize(0), problem.dirichlet_dofs.clear();
+  problem.bounds = {};
+  problem.dirichlet_dofs.clear();
   for (int i = 0; i < problem.size(); ++i)
     if (space.dof_coordinates()(i, 1) < 1e-12 ||
         std::binary_search(space.dirichlet_dofs().begin(), space.dirichlet_dofs().end(), i))

@@ -8,7 +8,6 @@
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
-#include "antilock/problem/bounds.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/space/space.hpp"
 #include "support/platen.hpp"
@@ -22,10 +21,11 @@ using Problem = std::function<VariationalInequality(int cells)>;
 /// What a force on the bounds does at compliance 1e-8, without bounds.
 double flexibility(VariationalInequality problem) {
   problem.load.setZero();
-  for (const int i : problem.contact) problem.load(i) = 1.0 / static_cast<double>(problem.contact.size());
+  for (const int i : problem.bounds.unknowns)
+    problem.load(i) = 1.0 / static_cast<double>(problem.bounds.unknowns.size());
   problem.dirichlet_values.setZero();
   problem.compliance = 1e-8;
-  const std::vector<bool> none(problem.contact.size());
+  const std::vector<bool> none(problem.bounds.unknowns.size());
   return active_set(equality_constrained(problem, none)).u.dot(problem.load);
 }
 
@@ -113,7 +113,7 @@ TEST(LockingDiagnosis, IsRightForBeamAndPlate) {
   const double softening = diagnose_locking(coarse, fine).refinement_softening;
   for (VariationalInequality* problem : {&coarse, &fine}) problem->dirichlet_values.setOnes();
   EXPECT_EQ(diagnose_locking(coarse, fine).refinement_softening, softening);
-  for (VariationalInequality* problem : {&coarse, &fine}) problem->contact.clear(), problem->lower.resize(0);
+  for (VariationalInequality* problem : {&coarse, &fine}) problem->bounds = {};
   EXPECT_FALSE(diagnose_locking(coarse, fine).locks());
   const auto plate = [](const Element& deflection, const Element& rotation, ShearRule shear) -> Problem {
     return [=, &deflection, &rotation](int cells) {
@@ -234,14 +234,15 @@ VariationalInequality tetrahedra(int n, double moved, bool nonconforming, double
   problem.m = Eigen::Map<Eigen::VectorXd>(m.data(), static_cast<Eigen::Index>(m.size()));
   problem.compliance = compliance;
   problem.load = Eigen::VectorXd::Zero(size);
+  std::vector<int> bottom;
   for (int i = 0; i < size; ++i) {
     const Eigen::Vector3d& x = places[i];
     const bool side = std::min({x(0), x(1), 1 - x(0), 1 - x(1), 1 - x(2)}) < 1e-12;
     if (side) problem.dirichlet_dofs.push_back(i);
-    if (!side && x(2) < -1 + 1e-12) problem.contact.push_back(i);
+    if (!side && x(2) < -1 + 1e-12) bottom.push_back(i);
   }
   problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
-  problem.lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
+  problem.bounds = Bounds::lower_on(bottom, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bottom.size())));
   return problem;
 }
 

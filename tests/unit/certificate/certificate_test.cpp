@@ -96,8 +96,8 @@ double flux_norm2(const Answered& run, const EquilibratedFlux& flux, const Confo
 /// The left side of the identity, m^2 / 2 + C, summed over elements and edges by itself.
 double left_side(const Answered& run, const EquilibratedFlux& flux, const ConformingCompanion& v, const Profile& gap) {
   double sum = flux_norm2(run, flux, v, [](const auto& a, const auto& b) -> Eigen::Vector2d { return a - b; }) / 2;
-  for (std::size_t i = 0; i < run.problem.contact.size(); ++i) {
-    const auto ends = run.space.mesh().edges.row(run.problem.contact[i]);
+  for (std::size_t i = 0; i < run.problem.bounds.unknowns.size(); ++i) {
+    const auto ends = run.space.mesh().edges.row(run.problem.bounds.unknowns[i]);
     for (const auto& [theta, weight] : {std::pair{0.0, 1.0 / 6}, {0.5, 4.0 / 6}, {1.0, 1.0 / 6}}) {  // a cubic gap
       const double x =
           (1 - theta) * run.space.mesh().vertices(ends(0), 0) + theta * run.space.mesh().vertices(ends(1), 0);
@@ -257,11 +257,11 @@ TEST(Certificate, HoldsForUzawaAfterAFewSteps) {
     return block.transpose().triangularView<Eigen::Upper>().solve(half);
   };
   const double step = 2 / largest_eigenvalue(compliance, block.rows());
-  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(run.problem.contact.size()));
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(run.problem.bounds.unknowns.size()));
   double ratio = 0;
   for (int steps = 0; steps <= 100; ++steps) {
     Eigen::VectorXd force = run.problem.load;
-    for (Eigen::Index i = 0; i < lambda.size(); ++i) force(run.problem.contact[i]) += lambda(i);
+    for (Eigen::Index i = 0; i < lambda.size(); ++i) force(run.problem.bounds.unknowns[i]) += lambda(i);
     run.solution.u.setZero();
     run.solution.u(free) = factor.cholesky().backward(factor.cholesky().forward(force(free)));
     run.solution.p = run.problem.b * run.solution.u / run.problem.compliance;
@@ -273,7 +273,7 @@ TEST(Certificate, HoldsForUzawaAfterAFewSteps) {
       EXPECT_LE(ratio, steps < 10 ? 1.7 : 1.35) << steps;  // 1.56, 1.37, 1.31, 1.30, 1.30 in a prototype
     }
     for (Eigen::Index i = 0; i < lambda.size(); ++i)
-      lambda(i) = std::max(0.0, lambda(i) - 0.5 * step * run.solution.u(run.problem.contact[i]));
+      lambda(i) = std::max(0.0, lambda(i) - 0.5 * step * run.solution.u(run.problem.bounds.unknowns[i]));
   }
 }
 
@@ -450,7 +450,7 @@ TEST(Certificate, RefusesWhatItCannotProve) {
       "affine on every edge");
   expect_refused([&] { on_top({"top"}, [](double x, double) { return 1 + x; }); }, "one number per triangle");
   ConformingCompanion low = p1_companion(p1_solution);
-  for (const int i : p1_problem.contact) low.at_vertices(i) -= 0.1;
+  for (const int i : p1_problem.bounds.unknowns) low.at_vertices(i) -= 0.1;
   expect_refused([&] { certify(run.scene, run, {.companion = &low}); }, "below the obstacle");
   ConformingCompanion off = p1_companion(p1_solution);
   off.at_vertices(conforming.dirichlet_dofs().front()) = 0.1;

@@ -116,7 +116,7 @@ TEST(ContactZone, TableAndZoneReportTheContact) {
       if (i > 0) {
         EXPECT_GT(table(i, 0), table(i - 1, 0));
       }
-      EXPECT_NEAR(table(i, 1), s.u(problem.contact[i]) + 1e-4 * table(i, 0), 1e-15);
+      EXPECT_NEAR(table(i, 1), s.u(problem.bounds.unknowns[i]) + 1e-4 * table(i, 0), 1e-15);
       EXPECT_NEAR(table(i, 2) / 16, s.lambda(i), 1e-9);
       if (table(i, 2) > 0) {
         ++active;

@@ -25,15 +25,15 @@ TEST(Assemble, AnAbsentEffectLeavesNothingBehind) {
   const VariationalInequality none = assemble(Scene({paper_load}), Space(body, p1()));
   EXPECT_EQ(none.b.rows(), 0);
   EXPECT_EQ(none.m.size(), 0);
-  EXPECT_TRUE(none.contact.empty());
-  EXPECT_EQ(none.lower.size(), 0);
+  EXPECT_TRUE(none.bounds.unknowns.empty());
+  EXPECT_EQ(none.bounds.lower.size(), 0);
   const VariationalInequality layer = assemble(Scene({paper_load}, StiffLayer{0.1}), Space(both, p1()));
   EXPECT_EQ(layer.b.rows(), 2 * 16);
-  EXPECT_TRUE(layer.contact.empty());
+  EXPECT_TRUE(layer.bounds.unknowns.empty());
   const VariationalInequality contact =
       assemble(Scene({paper_load}, NoLayer{}, UnilateralContact{}), Space(body, p1()));
   EXPECT_EQ(contact.b.rows(), 0);
-  EXPECT_EQ(contact.contact.size(), 3U);
+  EXPECT_EQ(contact.bounds.unknowns.size(), 3U);
 }
 
 TEST(Assemble, TheObstacleIsMinusTheGapAtEachContactUnknown) {
@@ -41,9 +41,9 @@ TEST(Assemble, TheObstacleIsMinusTheGapAtEachContactUnknown) {
   for (const Element* element : {&p1(), &crouzeix_raviart()}) {
     const Space space(mesh, *element);
     const auto problem = stiff_problem(space, 0.1, {[](double x) { return 0.5 * x; }});
-    ASSERT_EQ(problem.contact, space.contact_dofs());
-    for (Eigen::Index i = 0; i < problem.lower.size(); ++i)
-      EXPECT_EQ(problem.lower(i), -0.5 * space.dof_coordinates()(problem.contact[i], 0));
+    ASSERT_EQ(problem.bounds.unknowns, space.contact_dofs());
+    for (Eigen::Index i = 0; i < problem.bounds.lower.size(); ++i)
+      EXPECT_EQ(problem.bounds.lower(i), -0.5 * space.dof_coordinates()(problem.bounds.unknowns[i], 0));
   }
   const Space space(mesh, p1());
   expect_refused([&] { stiff_problem(space, 0.1, {[](double x) { return x > 0 && x < 1 ? nan : 0; }}); },

@@ -1,6 +1,6 @@
 // Mixed methods of rubber.
 #include "antilock/form/quadrature.hpp"
-#include "antilock/problem/bounds.hpp"
+#include "antilock/problem/variational_inequality.hpp"
 #include "support/dense.hpp"
 #include "support/measures.hpp"
 #include "support/platen.hpp"

@@ -161,7 +161,8 @@ TEST(Coating, PassesThePatchTestInShear) {
                    v_y_c = (t * stress - lambda_c * u_x) / (lambda_c + 2 * mu_c);
       VariationalInequality problem = assemble(scene, {space, space});
       Eigen::VectorXd exact(problem.size());
-      problem.dirichlet_dofs.clear(), problem.contact.clear(), problem.lower.resize(0);
+      problem.dirichlet_dofs.clear();
+      problem.bounds = {};
       for (int i = 0; i < problem.size(); ++i) {
         const double x = space.dof_coordinates()(i % space.size(), 0), y = space.dof_coordinates()(i % space.size(), 1);
         exact(i) = i < space.size() ? u_x * x + (y > 0 ? u_y : t * u_y_c) * y : v_x * x + (y > 0 ? v_y : t * v_y_c) * y;

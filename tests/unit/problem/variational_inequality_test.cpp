@@ -1,5 +1,6 @@
 // Malformed problems are refused before any solver sees them.
 #include "antilock/problem/choose_penalty.hpp"
+#include "support/platen.hpp"
 #include "support/scenes.hpp"
 #include "support/small_problem.hpp"
 
@@ -43,11 +44,13 @@ TEST(Check, RefusesWhatIsNoProblem) {
   refused([](P& p) { p.b.conservativeResize(p.b.rows(), p.b.cols() - 1); }, "B is");
   refused([](P& p) { p.m.conservativeResize(p.m.size() - 1); }, "M has");
   refused([](P& p) { p.dirichlet_dofs.pop_back(); }, "one value per fixed unknown");
-  refused([](P& p) { p.contact.pop_back(); }, "one bound per contact unknown");
+  refused([](P& p) { p.bounds.unknowns.pop_back(); }, "one bound per contact unknown");
+  refused([](P& p) { p.bounds.upper.resize(0); }, "upper has 0 entries; accepted 2, as in lower");
+  refused([](P& p) { p.bounds.force_limit.resize(0); }, "force_limit has 0 entries; accepted 2, as in lower");
   refused([=](P& p) { p.a1.valuePtr()[0] = nan; }, "not finite");
   refused([=](P& p) { p.b.valuePtr()[3] = infinity; }, "not finite");
   refused([=](P& p) { p.load(1) = nan; }, "not finite");
-  refused([=](P& p) { p.lower(0) = -infinity; }, "not finite");
+  refused([=](P& p) { p.bounds.lower(0) = -infinity; }, "not finite");
   refused([=](P& p) { p.dirichlet_values(0) = nan; }, "not finite");
   refused([=](P& p) { p.m(3) = nan; }, "not finite");
   refused([=](P& p) { p.m(p.m.size() - 1) = infinity; }, "not finite");
@@ -69,14 +72,13 @@ TEST(Check, RefusesWhatIsNoProblem) {
         "not symmetric");
   }
   refused([](P& p) { p.dirichlet_dofs[0] = -1; }, "out of range");
-  refused([](P& p) { p.contact[0] = p.size(); }, "out of range");
+  refused([](P& p) { p.bounds.unknowns[0] = p.size(); }, "out of range");
   refused([](P& p) { p.dirichlet_dofs[1] = p.dirichlet_dofs[0]; }, "fixed or bounded twice");
-  refused([](P& p) { p.contact[0] = p.dirichlet_dofs[0]; }, "fixed or bounded twice");
-  refused([](P& p) { p.contact[0] = p.contact[1]; }, "fixed or bounded twice");
+  refused([](P& p) { p.bounds.unknowns[0] = p.dirichlet_dofs[0]; }, "fixed or bounded twice");
+  refused([](P& p) { p.bounds.unknowns[0] = p.bounds.unknowns[1]; }, "fixed or bounded twice");
   refused(
       [](P& p) {
-        p.contact.clear();
-        p.lower.resize(0);
+        p.bounds = {};
         p.dirichlet_dofs.clear();
         for (int i = 0; i < p.size(); ++i) p.dirichlet_dofs.push_back(i);
         p.dirichlet_values = Eigen::VectorXd::Zero(p.size());
@@ -84,6 +86,14 @@ TEST(Check, RefusesWhatIsNoProblem) {
       "every unknown is fixed");
   refused([](P& p) { p.a1.uncompress(); }, "compressed");
   refused([](P& p) { p.b.uncompress(); }, "compressed");
+}
+
+TEST(EqualityConstrained, RefusesWhatDoesNotFit) {
+  const Space space(block(4), p2());
+  VariationalInequality problem = rubber(space, true);
+  expect_refused([&] { equality_constrained(problem, {true}); }, "1 marks; accepted: 9");
+  problem.bounds.upper = Eigen::VectorXd::Constant(problem.bounds.count(), 1);
+  expect_refused([&] { equality_constrained(problem, std::vector<bool>(9)); }, "equality_constrained: upper bounds");
 }
 
 TEST(Check, TakesAnA1OfZerosWhereBHoldsEverything) {

@@ -39,10 +39,10 @@ TEST(Ceiling, EqualToTheObstacleIsAProblemWithASolution) {
   for (const Element* element : {&p1(), &crouzeix_raviart()}) {
     const Space space(mesh, *element);
     const VariationalInequality problem = assemble(Scene({paper_load}, NoLayer{}, between(hill, same)), space);
-    EXPECT_GE((problem.upper - problem.lower).minCoeff(), 0);
+    EXPECT_GE((problem.bounds.upper - problem.bounds.lower).minCoeff(), 0);
     const Solution solution = active_set(problem);
     // held on both sides: u is the obstacle to the last digit of either formula
-    for (const int i : problem.contact) EXPECT_NEAR(solution.u(i), hill(space.dof_coordinates()(i, 0)), 1e-15);
+    for (const int i : problem.bounds.unknowns) EXPECT_NEAR(solution.u(i), hill(space.dof_coordinates()(i, 0)), 1e-15);
   }
 }
 

@@ -108,7 +108,7 @@ TEST(ActiveSet, NeverReturnsAnUnconvergedAnswer) {
 
   options = {};
   options.max_contact_iterations = 1;
-  options.start = BoundStatuses(problem.contact.size(), BoundStatus::at_lower);
+  options.start = BoundStatuses(problem.bounds.unknowns.size(), BoundStatus::at_lower);
   EXPECT_THROW(active_set(problem, options), NotConverged);
   options.start->push_back(BoundStatus::inactive);
   expect_refused([&] { active_set(problem, options); }, "contact: the start has");
@@ -190,8 +190,8 @@ TEST(PenalisedCholesky, ServesEveryComplianceAndEveryDeltaAskedFor) {
 TEST(ActiveSet, EndsWhereNumbersOverflowAndRefusesATolerance0) {
   VariationalInequality problem =
       small_problem(Eigen::Matrix2d{{1, -0.99}, {-0.99, 1}}, Eigen::Vector2d(1e307, 1e307), Eigen::Vector2d(0, 0));
-  problem.upper = Eigen::Vector2d(1, 2);
-  EXPECT_EQ(active_set(problem).u, problem.upper);
+  problem.bounds.upper = Eigen::Vector2d(1, 2);
+  EXPECT_EQ(active_set(problem).u, problem.bounds.upper);
   ActiveSetOptions options;
   options.corrections.tolerance = 0;
   EXPECT_THROW(active_set(problem, options), Error);
@@ -201,8 +201,8 @@ TEST(Combinations, LeaveTiedRowsTied) {
   VariationalInequality problem =
       small_problem(Eigen::Matrix2d{{2, -1}, {-1, 2}}, Eigen::Vector2d(1, 0.5), {}, Eigen::RowVector2d(1, 1), 1e-3);
   problem.fixed_compliances = Eigen::VectorXd::Zero(1);
-  problem.constraints = RowMatrix(Eigen::MatrixXd(Eigen::RowVector2d(1, -3)).sparseView());
-  problem.lower = Eigen::VectorXd::Constant(1, -10);
+  const RowMatrix row = Eigen::MatrixXd(Eigen::RowVector2d(1, -3)).sparseView();
+  problem.bounds = {{}, BoundLimits(Eigen::VectorXd::Constant(1, -10)), row};
   EXPECT_NEAR(active_set(problem).u.sum(), 0, 1e-15);
 }
 

@@ -2,6 +2,7 @@
 // report.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <numeric>
 
 #include "antilock/certificate/certificate.hpp"
 #include "antilock/measure/contact_zone.hpp"
@@ -49,9 +50,9 @@ struct String {
     for (int i = 0; i <= n; ++i) problem.load(i) = i == n / 2 ? 0 : i < n / 2 ? load * h : -load * h;
     problem.dirichlet_dofs = {0, n};
     problem.dirichlet_values = Eigen::Vector2d::Zero();
-    for (int i = 1; i < n; ++i) problem.contact.push_back(i);
-    problem.lower = Eigen::VectorXd::Constant(n - 1, -floor);
-    problem.upper = Eigen::VectorXd::Constant(n - 1, ceiling);
+    std::vector<int> inside(n - 1);
+    std::iota(inside.begin(), inside.end(), 1);
+    problem.bounds = {inside, {Eigen::VectorXd::Constant(n - 1, -floor), Eigen::VectorXd::Constant(n - 1, ceiling)}};
     u.setZero(n + 1);
     lambda.setZero(n - 1);
     const int on = 7, off = n / 2 - 5, down = n / 2 + 5, up = n - 1;
@@ -85,13 +86,11 @@ TEST(StringBetweenFloorAndCeiling, AsCombinationsIsTheSame) {
   // each bounded value is minus three times an unknown: floor and ceiling change places
   String string;
   VariationalInequality& problem = string.problem;
-  const int bounds = problem.bound_count();
+  const int bounds = problem.bounds.count();
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(bounds, problem.size());
-  for (int k = 0; k < bounds; ++k) rows(k, problem.contact[k]) = -3;
-  problem.contact.clear();
-  problem.constraints = rows_of(rows);
-  problem.lower = Eigen::VectorXd::Constant(bounds, -3 * string.ceiling);
-  problem.upper = Eigen::VectorXd::Constant(bounds, 3 * string.floor);
+  for (int k = 0; k < bounds; ++k) rows(k, problem.bounds.unknowns[k]) = -3;
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(bounds);
+  problem.bounds = {{}, {-3 * string.ceiling * ones, 3 * string.floor * ones}, rows_of(rows)};
   const Solution s = active_set(problem);
   EXPECT_LT(relative_difference(s.u, string.u), 1e-13);
   EXPECT_LT(relative_difference(s.lambda, -string.lambda / 3), 1e-13);
@@ -116,7 +115,7 @@ TEST(StringBetweenFloorAndCeiling, TheNestedStartKnowsTheSides) {
   const String string;
   Eigen::MatrixXd s = Eigen::MatrixXd(string.problem.a1).block(1, 1, string.n - 1, string.n - 1);
   const Eigen::VectorXd q = string.problem.load.segment(1, string.n - 1);
-  const Bounds bounds{string.problem.lower, string.problem.upper, {}};
+  const BoundLimits& bounds = string.problem.bounds;
   SchurComplementContact system(s, q);
   EXPECT_LE(solve_contact(system, bounds, system.nested_start(bounds, 100), 100).steps, 3);
 }
@@ -126,18 +125,19 @@ TEST(StringBetweenFloorAndCeiling, ASweepKeepsTheSides) {
   Sweep sweep(string.problem);
   sweep.solve();
   EXPECT_EQ(sweep.solve().counters.contact_iterations, 1) << "the same question again";
-  sweep.set_bounds(string.problem.lower, Eigen::VectorXd::Constant(string.n - 1, infinity));
+  sweep.set_bounds(string.problem.bounds.lower, Eigen::VectorXd::Constant(string.n - 1, infinity));
   VariationalInequality from_below = string.problem;
-  from_below.upper.resize(0);
+  from_below.bounds = Bounds::lower_on(string.problem.bounds.unknowns, string.problem.bounds.lower);
   const Eigen::VectorXd below = active_set(from_below).u;
   EXPECT_LT(relative_difference(sweep.solve().u, below), 1e-13);
-  sweep.set_bounds(string.problem.lower, string.problem.upper);
+  sweep.set_bounds(string.problem.bounds.lower, string.problem.bounds.upper);
   sweep.solve();
-  sweep.set_bounds(string.problem.lower, Eigen::VectorXd());
+  sweep.set_bounds(string.problem.bounds.lower, Eigen::VectorXd::Constant(string.n - 1, infinity));
   EXPECT_LT(relative_difference(sweep.solve().u, below), 1e-13) << "no upper bound is left to start from";
-  sweep.set_bounds(string.problem.lower, Eigen::VectorXd::Constant(string.n - 1, infinity));
-  expect_refused([&] { sweep.set_bounds(string.problem.upper, string.problem.lower); }, "accepted: lower <= upper");
-  EXPECT_EQ(sweep.problem().upper(0), infinity) << "as before";
+  expect_refused([&] { sweep.set_bounds(string.problem.bounds.lower, Eigen::VectorXd()); }, "upper has 0 entries");
+  expect_refused([&] { sweep.set_bounds(string.problem.bounds.upper, string.problem.bounds.lower); },
+                 "accepted: lower <= upper");
+  EXPECT_EQ(sweep.problem().bounds.upper(0), infinity) << "as before";
 }
 
 // ---- Signs and equations.
@@ -149,8 +149,8 @@ TEST(UpperBounds, AreLowerBoundsOfMinusU) {
         stiff_problem(space, epsilon, {[](double x) { return x * (x - 0.4) * (1 - x); }});
     VariationalInequality above = below;
     above.load *= -1;
-    above.upper = -below.lower;
-    above.lower.setConstant(-infinity);
+    above.bounds.upper = -below.bounds.lower;
+    above.bounds.lower.setConstant(-infinity);
     const Solution one = active_set(below), other = active_set(above);
     EXPECT_GT(std::count(one.active.begin(), one.active.end(), true), 0);
     EXPECT_EQ(other.u, -one.u) << epsilon;  // bit by bit
@@ -168,24 +168,23 @@ TEST(Equations, ArePrescribedValuesWithTheirReaction) {
   const Space space(structured_mesh(6), p1());
   for (const double epsilon : {1.0, 1e-3, 0.0}) {
     VariationalInequality held = stiff_problem(space, epsilon);
-    for (Eigen::Index i = 0; i < held.lower.size(); ++i) held.lower(i) = i % 2 == 0 ? 0.01 : -0.01;
-    held.upper = held.lower;
-    held.upper(0) = infinity;  // one bound beside them
+    for (Eigen::Index i = 0; i < held.bounds.lower.size(); ++i) held.bounds.lower(i) = i % 2 == 0 ? 0.01 : -0.01;
+    held.bounds.upper = held.bounds.lower;
+    held.bounds.upper(0) = infinity;  // one bound beside them
     const Solution s = active_set(held);
-    for (std::size_t i = 1; i < held.contact.size(); ++i)
-      EXPECT_EQ(s.u(held.contact[i]), held.lower(static_cast<Eigen::Index>(i)));
+    for (std::size_t i = 1; i < held.bounds.unknowns.size(); ++i)
+      EXPECT_EQ(s.u(held.bounds.unknowns[i]), held.bounds.lower(static_cast<Eigen::Index>(i)));
     VariationalInequality fixed = held;
-    fixed.dirichlet_dofs.insert(fixed.dirichlet_dofs.end(), held.contact.begin() + 1, held.contact.end());
+    fixed.dirichlet_dofs.insert(fixed.dirichlet_dofs.end(), held.bounds.unknowns.begin() + 1,
+                                held.bounds.unknowns.end());
     fixed.dirichlet_values.conservativeResize(static_cast<Eigen::Index>(fixed.dirichlet_dofs.size()));
-    fixed.dirichlet_values.tail(held.lower.size() - 1) = held.lower.tail(held.lower.size() - 1);
-    fixed.contact.resize(1);
-    fixed.lower.conservativeResize(1);
-    fixed.upper.conservativeResize(1);
+    fixed.dirichlet_values.tail(held.bounds.lower.size() - 1) = held.bounds.lower.tail(held.bounds.lower.size() - 1);
+    fixed.bounds = Bounds::lower_on({held.bounds.unknowns[0]}, held.bounds.lower.head(1));
     const Solution exact = active_set(fixed);
     EXPECT_LT(relative_difference(s.u, exact.u), 1e-9) << epsilon;
     const Eigen::VectorXd reaction = -exact_residual(fixed, exact.u, exact.p, exact.lambda).r1;
-    for (std::size_t i = 1; i < held.contact.size(); ++i)
-      EXPECT_NEAR(s.lambda(static_cast<Eigen::Index>(i)), reaction(held.contact[i]), 1e-9) << epsilon;
+    for (std::size_t i = 1; i < held.bounds.unknowns.size(); ++i)
+      EXPECT_NEAR(s.lambda(static_cast<Eigen::Index>(i)), reaction(held.bounds.unknowns[i]), 1e-9) << epsilon;
     EXPECT_LT(s.lambda.minCoeff() * s.lambda.maxCoeff(), 0) << "reactions of both signs: the test means something";
     EXPECT_EQ(s.warning, "");
   }
@@ -213,13 +212,12 @@ VariationalInequality two_bodies(const VariationalInequality& one, const Variati
   both.dirichlet_dofs = one.dirichlet_dofs;
   for (const int i : other.dirichlet_dofs) both.dirichlet_dofs.push_back(one.size() + i);
   both.dirichlet_values = then(one.dirichlet_values, other.dirichlet_values);
-  Eigen::MatrixXd gaps = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(one.contact.size()), both.size());
+  Eigen::MatrixXd gaps = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(one.bounds.unknowns.size()), both.size());
   for (Eigen::Index k = 0; k < gaps.rows(); ++k) {
-    gaps(k, one.contact[k]) = 1;
-    gaps(k, one.size() + other.contact[k]) = -1;
+    gaps(k, one.bounds.unknowns[k]) = 1;
+    gaps(k, one.size() + other.bounds.unknowns[k]) = -1;
   }
-  both.constraints = rows_of(gaps);
-  both.lower = Eigen::VectorXd::Constant(gaps.rows(), -gap);
+  both.bounds = {{}, BoundLimits(Eigen::VectorXd::Constant(gaps.rows(), -gap)), rows_of(gaps)};
   return both;
 }
 
@@ -259,19 +257,18 @@ TEST(Bounds, OfAllShapesAreTheBruteForceAnswer) {
       problem.dirichlet_values(0) = 0.02;
       std::vector<char> taken(problem.size(), 0);
       for (const int i : problem.dirichlet_dofs) taken[i] = 1;
-      for (const int i : problem.contact) taken[i] = 1;
+      for (const int i : problem.bounds.unknowns) taken[i] = 1;
       Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, problem.size());
-      const int third = problem.contact[2];
-      problem.contact.pop_back();
+      const int third = problem.bounds.unknowns[2];
+      problem.bounds.unknowns.pop_back();
       const int beside = static_cast<int>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
       rows(0, third) = 1;
       rows(0, beside) = -0.3;
       rows(0, problem.dirichlet_dofs[0]) = 0.7;
       rows(1, beside) = 1e3;
-      rows(1, problem.contact[0]) = -2e3;  // bounded by itself
-      problem.constraints = rows_of(rows);
-      problem.lower = Eigen::Vector4d(-0.001, -infinity, 0, -0.5);
-      problem.upper = Eigen::Vector4d(0.002, 0.001, infinity, 0.5);
+      rows(1, problem.bounds.unknowns[0]) = -2e3;  // bounded by itself
+      const Eigen::Vector4d lower(-0.001, -infinity, 0, -0.5), upper(0.002, 0.001, infinity, 0.5);
+      problem.bounds = {problem.bounds.unknowns, {lower, upper}, rows_of(rows)};
       const test::BruteForce exact = test::brute_force(problem);
       for (const Solution& s : {active_set(problem), uzawa(problem)}) {
         const double within = s.solver == "uzawa" ? 1e-7 : 1e-9;
@@ -299,17 +296,16 @@ struct Turned {
       problem.dirichlet_values(static_cast<Eigen::Index>(i)) =
           problem.dirichlet_dofs[i] < x.size() ? 0.1 * s : -0.1 * c;
     const auto along = [&](int i) { return c * x.dof_coordinates()(i, 0) + s * x.dof_coordinates()(i, 1); };
-    std::sort(problem.contact.begin(), problem.contact.end(),
+    std::sort(problem.bounds.unknowns.begin(), problem.bounds.unknowns.end(),
               [&](int i, int j) { return along(i - x.size()) < along(j - x.size()); });  // as on the flat one
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(problem.lower.size(), problem.size());
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(problem.bounds.lower.size(), problem.size());
     for (Eigen::Index k = 0; k < normal.rows(); ++k) {
-      const int i = problem.contact[k] - x.size();
-      problem.lower(k) = -std::pow(along(i) - 0.5, 2);
+      const int i = problem.bounds.unknowns[k] - x.size();
+      problem.bounds.lower(k) = -std::pow(along(i) - 0.5, 2);
       normal(k, i) = -s;
       normal(k, x.size() + i) = c;
     }
-    problem.contact.clear();
-    problem.constraints = rows_of(normal);
+    problem.bounds = {{}, BoundLimits(problem.bounds.lower), rows_of(normal)};
   }
 
   static TriangleMesh turned(TriangleMesh mesh, double angle) {
@@ -347,8 +343,7 @@ TEST(BlockOnASlope, IsTheFlatOneTurned) {
 /// Three points (u_x, u_y) on springs.
 VariationalInequality springs(const Eigen::MatrixXd& rows, const Eigen::VectorXd& load) {
   VariationalInequality problem = small_problem(Eigen::MatrixXd::Identity(load.size(), load.size()), load);
-  problem.constraints = rows_of(rows);
-  problem.lower = Eigen::VectorXd::Zero(rows.rows());
+  problem.bounds = {{}, BoundLimits(Eigen::VectorXd::Zero(rows.rows())), rows_of(rows)};
   return problem;
 }
 
@@ -393,15 +388,15 @@ TEST(Combinations, TheUnitsOfARowAndOfForcesDoNotMatter) {
   Eigen::MatrixXd rows(2, 4);
   rows << 1, -0.5, 0, 0, 0, 0.3, 1, 1;
   VariationalInequality problem = springs(rows, Eigen::Vector4d(-1, 2, -3, 0.5));
-  problem.lower << -0.1, -0.2;
-  problem.upper = Eigen::Vector2d(0.1, infinity);
+  problem.bounds.lower << -0.1, -0.2;
+  problem.bounds.upper = Eigen::Vector2d(0.1, infinity);
   const Solution one = active_set(problem);
   EXPECT_EQ(std::count(one.active.begin(), one.active.end(), true), 2);
   for (const auto& [unit, force] : {std::pair{0x1p-60, 1.0}, {0x1p60, 1.0}, {1.0, 0x1p60}}) {
     VariationalInequality other = problem;
-    other.constraints *= unit;
-    other.lower *= unit;
-    other.upper *= unit;
+    other.bounds.constraints *= unit;
+    other.bounds.lower *= unit;
+    other.bounds.upper *= unit;
     other.a1 *= force, other.load *= force;
     const Solution s = active_set(other);
     EXPECT_EQ(s.u, one.u);  // powers of two: bit by bit
@@ -423,18 +418,16 @@ TEST(Bounds, ThatNoUCanMeetAreRefusedUnderAnyLoad) {
       problem.m = Eigen::VectorXd::Ones(1);
       problem.compliance = 0;
       if (shape == 0) {
-        problem.constraints = rows_of(Eigen::RowVector3d(1, -1, 0));
-        problem.lower = Eigen::VectorXd::Constant(1, 0.05);
+        const RowMatrix row = rows_of(Eigen::RowVector3d(1, -1, 0));
+        problem.bounds = {{}, BoundLimits(Eigen::VectorXd::Constant(1, 0.05)), row};
       } else {
-        problem.constraints.resize(0, 0);
-        problem.contact = {0, 1};
-        problem.lower = Eigen::Vector2d(0.05, shape == 1 ? -1 : -infinity);
-        problem.upper = Eigen::Vector2d(infinity, 0);
+        const Eigen::Vector2d lower(0.05, shape == 1 ? -1 : -infinity), upper(infinity, 0);
+        problem.bounds = {{0, 1}, {lower, upper}};
       }
       EXPECT_THROW(active_set(problem), NotConverged) << load << ", shape " << shape;
-      problem.upper = Eigen::VectorXd::Constant(problem.bound_count(), infinity);
-      problem.lower(0) = -0.05;
-      if (shape > 0) problem.upper(1) = 0;
+      problem.bounds.upper = Eigen::VectorXd::Constant(problem.bounds.count(), infinity);
+      problem.bounds.lower(0) = -0.05;
+      if (shape > 0) problem.bounds.upper(1) = 0;
       if (load < 1e12) {
         EXPECT_NO_THROW(active_set(problem)) << load << ", shape " << shape;
       }
@@ -447,9 +440,7 @@ TEST(Bounds, AGreatUElsewhereHidesNoUpperBound) {
   problem.b = rows_of(Eigen::RowVector4d(0, 0, 1, 0));
   problem.m = Eigen::VectorXd::Ones(1);
   problem.compliance = 0;
-  problem.contact = {1, 3};
-  problem.lower = Eigen::Vector2d(-infinity, 0.01);
-  problem.upper = Eigen::Vector2d(0.1, infinity);
+  problem.bounds = {{1, 3}, {Eigen::Vector2d(-infinity, 0.01), Eigen::Vector2d(0.1, infinity)}};
   const Solution s = active_set(problem);
   EXPECT_NEAR(s.u(1), 0.1, 1e-12);
   EXPECT_NEAR(s.u(3), 0.01, 1e-12);
@@ -476,7 +467,7 @@ TEST(KktOfBounds, ReportsEachSideOfABoundByItself) {
   EXPECT_NEAR(kkt_report(string.problem, wrong).complementarity, 0.1 * (right.u(between) + string.floor) / u, 1e-12);
   // from above alone, a push from below is wrong whatever the gap
   VariationalInequality above = string.problem;
-  above.lower.setConstant(-infinity);
+  above.bounds.lower.setConstant(-infinity);
   wrong = active_set(above);
   wrong.lambda(top - 1) = 0.1 * wrong.lambda.lpNorm<Eigen::Infinity>();
   EXPECT_LT(kkt_report(above, wrong).min_pressure, -0.05);
@@ -512,35 +503,35 @@ TEST(CheckBounds, RefusesBoundsThatAreNone) {
   };
   using P = VariationalInequality;
   const double nan = std::nan("");
-  refused([](P& p) { p.lower(3) = p.upper(3) + 1e-9; }, "accepted: lower <= upper");
-  refused([](P& p) { p.lower(3) = -infinity, p.upper(3) = infinity; }, "bound 3 is not finite");
-  refused([](P& p) { p.lower(3) = infinity; }, "bound 3 is not finite");
-  refused([](P& p) { p.upper(3) = -infinity; }, "bound 3 is not finite");
-  refused([nan](P& p) { p.upper(3) = nan; }, "not finite");
-  refused([](P& p) { p.upper.conservativeResize(5); }, "upper has 5 entries");
-  refused([](P& p) { p.constraints.resize(1, 3); }, "constraints have 3 columns");
+  refused([](P& p) { p.bounds.lower(3) = p.bounds.upper(3) + 1e-9; }, "accepted: lower <= upper");
+  refused([](P& p) { p.bounds.lower(3) = -infinity, p.bounds.upper(3) = infinity; }, "bound 3 is not finite");
+  refused([](P& p) { p.bounds.lower(3) = infinity; }, "bound 3 is not finite");
+  refused([](P& p) { p.bounds.upper(3) = -infinity; }, "bound 3 is not finite");
+  refused([nan](P& p) { p.bounds.upper(3) = nan; }, "not finite");
+  refused([](P& p) { p.bounds.upper.conservativeResize(5); }, "upper has 5 entries");
+  refused([](P& p) { p.bounds.constraints.resize(1, 3); }, "constraints have 3 columns");
   const auto with_row = [](P& p, double value) {
-    p.contact.pop_back();
+    p.bounds.unknowns.pop_back();
     Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, p.size());
     row(0, p.size() - 2) = 1;
-    p.constraints = rows_of(row);
-    p.constraints.valuePtr()[0] = value;
+    p.bounds.constraints = rows_of(row);
+    p.bounds.constraints.valuePtr()[0] = value;
   };
   refused([&](P& p) { with_row(p, nan); }, "an entry of constraints is not finite");
   refused([&](P& p) { with_row(p, 0); }, "constraint 0 holds no free unknown");
-  refused([&](P& p) { with_row(p, 1), p.lower.conservativeResize(3); }, "one bound per contact unknown and per");
-  refused([&](P& p) { with_row(p, 1), p.constraints.uncompress(); }, "compressed");
+  refused([&](P& p) { with_row(p, 1), p.bounds.lower.conservativeResize(3); }, "one bound per contact unknown and per");
+  refused([&](P& p) { with_row(p, 1), p.bounds.constraints.uncompress(); }, "compressed");
 }
 
 TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
   const Space space(structured_mesh(4), crouzeix_raviart());
   const Scene scene = test::stiff_scene(1);
   VariationalInequality above = assemble(scene, space), combined = above;
-  above.upper = Eigen::VectorXd::Constant(above.lower.size(), 1.0);
+  above.bounds.upper = Eigen::VectorXd::Constant(above.bounds.lower.size(), 1.0);
   Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, combined.size());
-  row(0, combined.contact.back()) = 1;
-  combined.contact.pop_back();
-  combined.constraints = rows_of(row);
+  row(0, combined.bounds.unknowns.back()) = 1;
+  combined.bounds.unknowns.pop_back();
+  combined.bounds.constraints = rows_of(row);
   for (const VariationalInequality* problem : {&above, &combined}) {
     const Solution s = active_set(*problem);
     const std::string words = "accepted: lower bounds on unknowns";

@@ -10,9 +10,9 @@ struct Box {
   Eigen::VectorXd q, lower, upper;
   ContactResult solve(const BoundStatuses& start, int max_iterations = 1000) const {
     SchurComplementContact system(s, q);
-    return solve_contact(system, {lower, upper}, start, max_iterations);
+    return solve_contact(system, BoundLimits(lower, upper), start, max_iterations);
   }
-  BoundStatuses nested() const { return SchurComplementContact(s, q).nested_start({lower, upper}, 1000); }
+  BoundStatuses nested() const { return SchurComplementContact(s, q).nested_start(BoundLimits(lower, upper), 1000); }
 };
 
 /// S = A A' + I / 100, dense, no M-matrix: with a `rank` of A below `size` plain active-set exchanges may cycle. A third of
@@ -95,8 +95,8 @@ TEST(ContactProblem, AWrongSideCostsAStepPerStatus) {
 }
 
 // The statuses in their order: v grows and lambda falls.
-TEST(Bounds, ValuesRiseAndForcesFallFromStatusToStatus) {
-  const Bounds bounds{Eigen::VectorXd{{0}}, Eigen::VectorXd{{1}}, Eigen::VectorXd{{3}}};
+TEST(ShiftedBounds, ValuesRiseAndForcesFallFromStatusToStatus) {
+  const ShiftedBounds bounds(BoundLimits(Eigen::VectorXd{{0}}, Eigen::VectorXd{{1}}, Eigen::VectorXd{{3}}));
   const BoundStatuses all{BoundStatus::slip_below, BoundStatus::at_lower, BoundStatus::inactive, BoundStatus::at_upper,
                           BoundStatus::slip_above};
   double v = -infinity, lambda = infinity;
@@ -114,10 +114,10 @@ TEST(Bounds, ValuesRiseAndForcesFallFromStatusToStatus) {
   EXPECT_EQ(v, infinity);
   EXPECT_EQ(lambda, -3);
   // what a bound bears so far is left out of the forces that are given and found, and is in the whole force
-  Bounds later = bounds;
+  ShiftedBounds later = bounds;
   later.multiplier_estimate = Eigen::VectorXd{{0.5}};
   for (const BoundStatus status : all) {
-    const Bounds::Interval before = bounds.admissible_range(0, status), now = later.admissible_range(0, status);
+    const ShiftedBounds::Interval before = bounds.admissible_range(0, status), now = later.admissible_range(0, status);
     const double moved = is_active(status) ? 0.5 : 0, given = bounds.prescribed(0, status);
     EXPECT_EQ(now.low, before.low - moved);
     EXPECT_EQ(now.high, before.high - moved);
@@ -126,8 +126,8 @@ TEST(Bounds, ValuesRiseAndForcesFallFromStatusToStatus) {
   }
 }
 
-TEST(Bounds, AnEquationHasThreeStatusesAndIsNeverInactive) {
-  const Bounds bounds{Eigen::VectorXd{{2}}, Eigen::VectorXd{{2}}, Eigen::VectorXd{{3}}};
+TEST(ShiftedBounds, AnEquationHasThreeStatusesAndIsNeverInactive) {
+  const ShiftedBounds bounds(BoundLimits(Eigen::VectorXd{{2}}, Eigen::VectorXd{{2}}, Eigen::VectorXd{{3}}));
   EXPECT_EQ(bounds.next(0, BoundStatus::slip_below, true), BoundStatus::at_lower);
   EXPECT_EQ(bounds.next(0, BoundStatus::at_lower, true), BoundStatus::slip_above);
   EXPECT_EQ(bounds.next(0, BoundStatus::slip_above, false), BoundStatus::at_lower);
@@ -138,14 +138,15 @@ TEST(Bounds, AnEquationHasThreeStatusesAndIsNeverInactive) {
   EXPECT_EQ(bounds.admissible_range(0, BoundStatus::at_lower).high, 3);
 }
 
-TEST(Bounds, AStartAsksForStatusesThatExist) {
+TEST(ShiftedBounds, AStartAsksForStatusesThatExist) {
   // two-sided, from below, from above, an equation; each bears anything, then each gives way
   const Eigen::VectorXd lower{{0, 0, -infinity, 1}}, upper{{1, infinity, 1, 1}};
   using P = BoundStatus;
-  const Bounds none{Eigen::VectorXd{{-infinity}}};  // a coarse start may ask for a bound that is not there
+  // a coarse start may ask for a bound that is not there
+  const ShiftedBounds none(BoundLimits(Eigen::VectorXd{{-infinity}}));
   for (const P asked : {P::at_lower, P::at_upper, P::slip_above})
     EXPECT_EQ(none.nearest_valid({asked}), BoundStatuses{P::inactive});
-  const Bounds hard{lower, upper, {}}, soft{lower, upper, Eigen::VectorXd::Ones(4)};
+  const ShiftedBounds hard(BoundLimits(lower, upper)), soft(BoundLimits(lower, upper, Eigen::VectorXd::Ones(4)));
   EXPECT_EQ(hard.nearest_valid(BoundStatuses(4, P::at_upper)),
             (BoundStatuses{P::at_upper, P::at_lower, P::at_upper, P::at_lower}));
   EXPECT_EQ(hard.nearest_valid(BoundStatuses(4, P::at_lower)),
@@ -164,7 +165,7 @@ TEST(Bounds, AStartAsksForStatusesThatExist) {
 
 /// A 1-D obstacle problem on n points, like the limit problem on Sigma: the case where a cold start takes O(n) steps.
 Box obstacle(int n) {
-  Box r{Eigen::MatrixXd::Zero(n, n), {}, Eigen::VectorXd::Zero(n), {}};
+  Box r{Eigen::MatrixXd::Zero(n, n), {}, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Constant(n, infinity)};
   const double h = 1.0 / (n + 1);
   for (int i = 0; i < n; ++i) {
     r.s(i, i) = 2 / h;

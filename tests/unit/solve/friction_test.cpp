@@ -1,4 +1,6 @@
 // Bounds that give way: Tresca's friction, and plastic obstacles. Sticks where |lambda| < g, slips where |lambda| = g.
+#include <numeric>
+
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/models/bar_on_a_floor.hpp"
 #include "antilock/problem/bounds.hpp"
@@ -27,22 +29,23 @@ VariationalInequality random_friction(std::mt19937& engine) {
   problem.compliance = std::vector{0.0, 1e-20, 1e-3, 1.0}[engine() % 4];
   problem.load = Eigen::VectorXd::NullaryExpr(n, [&](auto) { return normal(engine); });
   const int rows = n >= bounds + 2 && engine() % 2 == 0 ? 1 : 0;
-  for (int i = 0; i < bounds; ++i) problem.contact.push_back(i);
+  std::vector<int> unknowns(bounds);
+  std::iota(unknowns.begin(), unknowns.end(), 0);
   Eigen::MatrixXd combination = Eigen::MatrixXd::Zero(rows, n);
   if (rows > 0) combination.row(0).tail(2) << 3 * normal(engine), normal(engine);
-  problem.constraints = combination.sparseView();
-  problem.lower = Eigen::VectorXd::NullaryExpr(bounds + rows, [&](auto) { return -0.2 * std::abs(normal(engine)); });
-  problem.upper = problem.force_limit = Eigen::VectorXd::Constant(bounds + rows, infinity);
+  const Eigen::VectorXd lower =
+      Eigen::VectorXd::NullaryExpr(bounds + rows, [&](auto) { return -0.2 * std::abs(normal(engine)); });
+  problem.bounds = {unknowns, BoundLimits(lower), RowMatrix(combination.sparseView())};
   for (int i = 0; i < bounds + rows; ++i) {
     if (engine() % 4 == 0) {  // contact, or an equation
-      if (engine() % 2 == 0) problem.upper(i) = problem.lower(i);
+      if (engine() % 2 == 0) problem.bounds.upper(i) = problem.bounds.lower(i);
       continue;
     }
     if (engine() % 4 == 0) continue;  // contact
-    problem.force_limit(i) = 0.7 * std::abs(normal(engine));
-    if (engine() % 4 == 0) continue;                               // a plastic obstacle
-    problem.upper(i) = problem.lower(i) = engine() % 3 ? 0 : 0.1;  // friction, about 0 or elsewhere
-    if (engine() % 5 == 0) problem.upper(i) += 0.05;               // with play
+    problem.bounds.force_limit(i) = 0.7 * std::abs(normal(engine));
+    if (engine() % 4 == 0) continue;                                             // a plastic obstacle
+    problem.bounds.upper(i) = problem.bounds.lower(i) = engine() % 3 ? 0 : 0.1;  // friction, about 0 or elsewhere
+    if (engine() % 5 == 0) problem.bounds.upper(i) += 0.05;                      // with play
   }
   return problem;
 }
@@ -60,7 +63,7 @@ TEST(Friction, IsRightBesideContactInHundredsOfSmallProblems) {
     ActiveSetOptions sparse;
     sparse.reduction = ContactReduction::sparse;
     std::vector<Solution> answers{active_set(problem)};
-    if (problem.constraints.rows() == 0) answers.push_back(active_set(problem, sparse));
+    if (problem.bounds.constraints.rows() == 0) answers.push_back(active_set(problem, sparse));
     if (trial % 4 == 0) answers.push_back(uzawa(problem));
     for (const Solution& s : answers) {
       EXPECT_LT((s.u - exact_solution.u).lpNorm<Eigen::Infinity>(), 1e-7 * size) << s.solver;
@@ -68,8 +71,8 @@ TEST(Friction, IsRightBesideContactInHundredsOfSmallProblems) {
       EXPECT_LT(worst_violation(s.kkt), 1e-8) << s.solver;
     }
     for (Eigen::Index i = 0; i < exact_solution.lambda.size(); ++i) {
-      if (std::isinf(problem.force_limit(i))) continue;
-      const bool slipped = std::abs(exact_solution.lambda(i)) >= problem.force_limit(i) * (1 - 1e-12);
+      if (std::isinf(problem.bounds.force_limit(i))) continue;
+      const bool slipped = std::abs(exact_solution.lambda(i)) >= problem.bounds.force_limit(i) * (1 - 1e-12);
       ++(slipped ? slips : sticks);
       EXPECT_EQ(answers[0].active[i], exact_solution.active[i]) << i;
     }
@@ -91,7 +94,7 @@ TEST(Friction, ABarSlipsAsFarAsItsPullReaches) {
     EXPECT_LT((uzawa(bar).u - s.u).lpNorm<Eigen::Infinity>(), 1e-8);
     EXPECT_NEAR(s.lambda.sum(), -pull, 1e-12);  // the floor bears all
     for (Eigen::Index i = 0; i < s.lambda.size(); ++i)
-      EXPECT_EQ(s.active[i], s.lambda(i) > -bar.force_limit(i)) << "sticks where it bears less than it can";
+      EXPECT_EQ(s.active[i], s.lambda(i) > -bar.bounds.force_limit(i)) << "sticks where it bears less than it can";
     EXPECT_LE(s.counters.contact_iterations, 8);
   }
 }
@@ -124,23 +127,21 @@ TEST(Friction, HasTheEnergyThatNothingNearbyHas) {
     }
   Solution still = s;
   still.u.setZero();
-  EXPECT_EQ(friction_energy(bar, still.u), 0);
-  EXPECT_EQ(distance_to_bound(bar, s.u).minCoeff(), infinity);  // what gives way leaves every u admissible
-  EXPECT_NEAR(friction_energy(bar, Eigen::VectorXd::Ones(21)), 1 - 0.5 / 20, 1e-14);  // 21 terms
+  EXPECT_EQ(friction_energy(bar.bounds, still.u), 0);
+  EXPECT_EQ(distance_to_bound(bar.bounds, s.u).minCoeff(), infinity);  // what gives way leaves every u admissible
+  EXPECT_NEAR(friction_energy(bar.bounds, Eigen::VectorXd::Ones(21)), 1 - 0.5 / 20, 1e-14);  // 21 terms
 }
 
 // g = 0 is no bound at all, g = infinity an equation, and a great g holds like one.
 TEST(Friction, LimitsAreTheProblemsWithoutIt) {
   VariationalInequality bar = bar_on_a_floor(20, 0.53);
   VariationalInequality free = bar;
-  free.contact.clear();
-  free.lower.resize(0);
-  free.upper = free.force_limit = free.lower;
-  bar.force_limit.setZero();
+  free.bounds = {};
+  bar.bounds.force_limit.setZero();
   for (const Solution& s : {active_set(bar), uzawa(bar)})
     EXPECT_LT((s.u - active_set(free).u).lpNorm<Eigen::Infinity>(), 1e-12) << s.solver;
   for (const double most : {1e3, 1e12, infinity}) {
-    bar.force_limit.setConstant(most);
+    bar.bounds.force_limit.setConstant(most);
     EXPECT_EQ(active_set(bar).u.lpNorm<Eigen::Infinity>(), 0) << most;
   }
 }
@@ -161,7 +162,7 @@ TEST(Friction, TheLoopEndsOnProblemsOnWhichExchangesCycle) {
     }
     SchurComplementContact system(random.s, random.q);
     const BoundStatuses start(n, trial % 2 == 1 ? BoundStatus::at_lower : BoundStatus::inactive);
-    const ContactResult answer = solve_contact(system, {random.lower, upper, most}, start, 300);
+    const ContactResult answer = solve_contact(system, BoundLimits(random.lower, upper, most), start, 300);
     const Eigen::VectorXd residual = random.s * answer.v - random.q - answer.lambda;
     EXPECT_LT(residual.lpNorm<Eigen::Infinity>(), 1e-8) << trial;
     for (int i = 0; i < n; ++i) {
@@ -178,17 +179,18 @@ TEST(Friction, TheLoopEndsOnProblemsOnWhichExchangesCycle) {
 
 TEST(Friction, BothRoadsAgreeOnAMembraneThatRubs) {
   VariationalInequality membrane = test::membrane_over_obstacle(30);
-  const auto count = membrane.lower.size();
-  membrane.lower.setZero();  // every vertex is held in a paste that yields
-  membrane.upper = membrane.lower;
-  membrane.force_limit = Eigen::VectorXd::Constant(count, 4.0 / (30 * 30));
+  const auto count = membrane.bounds.lower.size();
+  membrane.bounds.lower.setZero();  // every vertex is held in a paste that yields
+  membrane.bounds.upper = membrane.bounds.lower;
+  membrane.bounds.force_limit = Eigen::VectorXd::Constant(count, 4.0 / (30 * 30));
   ActiveSetOptions dense, sparse;
   dense.reduction = ContactReduction::schur_complement;
   sparse.reduction = ContactReduction::sparse;
   const Solution one = active_set(membrane, dense), other = active_set(membrane, sparse);
   EXPECT_LT((one.u - other.u).lpNorm<Eigen::Infinity>(), 1e-11);
   EXPECT_EQ(one.active, other.active);
-  membrane.force_limit.head(count / 2).setConstant(20.0 / (30 * 30));  // half of it bears all of its load and more
+  // half of it bears all of its load and more
+  membrane.bounds.force_limit.head(count / 2).setConstant(20.0 / (30 * 30));
   const Solution held = active_set(membrane, sparse);
   EXPECT_LT((held.u - active_set(membrane, dense).u).lpNorm<Eigen::Infinity>(), 1e-11);
   EXPECT_GT(std::count(held.active.begin(), held.active.end(), true), 300);
@@ -208,7 +210,7 @@ TEST(Friction, TheBlockIsUniformInLambdaWhereItDoesNotLock) {
     EXPECT_EQ(s.active, limit.active);
   }
   scene.friction = [](double at) { return 3 * at; };
-  EXPECT_NEAR(assemble(scene, {x, y}).force_limit.tail(17).sum(), 1.5, 1e-14);  // int g
+  EXPECT_NEAR(assemble(scene, {x, y}).bounds.force_limit.tail(17).sum(), 1.5, 1e-14);  // int g
   scene.friction = [](double) { return -1.0; };
   expect_refused([&] { assemble(scene, {x, y}); }, "friction bound -1");
 }
@@ -217,8 +219,8 @@ TEST(Friction, ASweepOverItsBoundIsTheSameAsEachAlone) {
   Sweep sweep(bar_on_a_floor(40, 0.53));
   for (const double factor : {1.0, 0.6, 2.0, 0.0, 1.0}) {
     VariationalInequality alone = bar_on_a_floor(40, 0.53);
-    alone.force_limit *= factor;
-    sweep.set_force_limit(alone.force_limit);
+    alone.bounds.force_limit *= factor;
+    sweep.set_force_limit(alone.bounds.force_limit);
     const Solution s = sweep.solve();
     EXPECT_LT((s.u - active_set(alone).u).lpNorm<Eigen::Infinity>(), 1e-13) << factor;
   }
@@ -246,17 +248,17 @@ TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
   const VariationalInequality good = bar_on_a_floor(4, 0.3);
   const auto refused = [&](double value, Eigen::Index size, const std::string& words) {
     VariationalInequality bad = good;
-    bad.force_limit = Eigen::VectorXd::Constant(size, value);
+    bad.bounds.force_limit = Eigen::VectorXd::Constant(size, value);
     for (const auto& solve : {+[](const VariationalInequality& p) { return active_set(p); },
                               +[](const VariationalInequality& p) { return uzawa(p); }})
       expect_refused([&] { solve(bad); }, words);
   };
   refused(-1, 4, "force_limit 0 is -1");
   refused(nan, 4, "force_limit 0 is nan");
-  refused(1, 3, "force_limit has 3 entries; accepted none, or 4");
+  refused(1, 3, "force_limit has 3 entries; accepted 4, as in lower");
   const Space space(structured_mesh(2), p1());
   expect_refused([&] { contact_zone({space, good, active_set(good)}); }, "friction is not known here");
-  expect_refused([&] { require_lower_bounds(good, "certificate"); }, "certificate: friction is not known here");
+  expect_refused([&] { require_lower_bounds(good.bounds, "certificate"); }, "certificate: friction is not known here");
   ActiveSetOptions options;
   options.start = BoundStatuses(3, BoundStatus::inactive);
   expect_refused([&] { active_set(good, options); }, "3 statuses; accepted one per bound, 4");
@@ -274,10 +276,10 @@ TEST(Friction, AnInfeasibleProblemIsRefusedWithFrictionToo) {
   problem.b = b.sparseView();
   problem.m = Eigen::VectorXd::Ones(1);
   problem.compliance = 0;
-  problem.lower(0) = problem.upper(0) = 0.05;
-  problem.force_limit(0) = infinity;
+  problem.bounds.lower(0) = problem.bounds.upper(0) = 0.05;
+  problem.bounds.force_limit(0) = infinity;
   EXPECT_THROW(active_set(problem), NotConverged);
-  problem.force_limit(0) = 0.1;  // the same bound, but it gives way
+  problem.bounds.force_limit(0) = 0.1;  // the same bound, but it gives way
   EXPECT_NEAR(active_set(problem).u(1), 0, 1e-12);
   EXPECT_NEAR(active_set(problem).lambda(0), 0.1, 1e-12);
 }

@@ -1,5 +1,5 @@
 // The report that stands between a solver and its caller: relative, scale-free, and merciless.
-#include "antilock/problem/bounds.hpp"
+#include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/residual.hpp"
 #include "support/scenes.hpp"
 #include "support/small_problem.hpp"
@@ -67,7 +67,7 @@ TEST(Kkt, ALoadThatTheStiffFormBearsIsNoMeasureOfU) {
   s.penalised_max_u = 1e3;  // the first iterate was larger: u is what counts, down to a millionth of that
   EXPECT_NEAR(kkt_report(problem, s).residual, 1e-3, 1e-15);
   s.u(1) = 0;
-  problem.lower(0) = 1.001;
+  problem.bounds.lower(0) = 1.001;
   EXPECT_NEAR(kkt_report(problem, s).min_gap, -1e-3 / 1.001, 1e-15);
 }
 
@@ -83,9 +83,9 @@ TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
         active[held(s.solution)] = false;
       Solution wrong = active_set(equality_constrained(s.problem, active));
       const SplitResidual r = exact_residual(s.problem, wrong.u, wrong.p, Eigen::VectorXd());
-      wrong.lambda = Eigen::VectorXd::Zero(s.problem.lower.size());
+      wrong.lambda = Eigen::VectorXd::Zero(s.problem.bounds.lower.size());
       for (std::size_t i = 0; i < active.size(); ++i)
-        if (active[i]) wrong.lambda(static_cast<Eigen::Index>(i)) = -r.r1(s.problem.contact[i]);
+        if (active[i]) wrong.lambda(static_cast<Eigen::Index>(i)) = -r.r1(s.problem.bounds.unknowns[i]);
       wrong.active = active;
       EXPECT_LT(kkt_report(s.problem, wrong).residual, 1e-8);
       EXPECT_THROW(check_kkt(s.problem, wrong), NotConverged) << "epsilon " << epsilon << ", one more: " << one_more;

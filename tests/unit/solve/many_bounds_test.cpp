@@ -84,10 +84,10 @@ VariationalInequality layer_under_bounds(const TriangleMesh& mesh, const std::st
   VariationalInequality problem = stiff_problem(space, epsilon);
   std::vector<char> fixed(problem.size(), 0);
   for (const int i : problem.dirichlet_dofs) fixed[i] = 1;
-  problem.contact.clear();
+  std::vector<int> in_layer;
   for (int i = 0; i < problem.size(); ++i)
-    if (fixed[i] == 0 && space.dof_coordinates()(i, 1) <= 1e-12) problem.contact.push_back(i);
-  problem.lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
+    if (fixed[i] == 0 && space.dof_coordinates()(i, 1) <= 1e-12) in_layer.push_back(i);
+  problem.bounds = Bounds::lower_on(in_layer, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(in_layer.size())));
   return problem;
 }
 
@@ -97,9 +97,9 @@ TEST(ManyBounds, BothRoadsAgreeOnAStiffLayerUnderBounds) {
       for (const double epsilon : {1.0, 1e-3, 1e-6, 0.0}) {  // compliance 1, 1e-6, 1e-12, 0
         const TriangleMesh mesh = structured ? structured_mesh(8) : jittered_mesh(8, 0.2);
         VariationalInequality problem = layer_under_bounds(mesh, name, epsilon);
-        const Eigen::VectorXd ones = Eigen::VectorXd::Ones(problem.lower.size());
+        const Eigen::VectorXd ones = Eigen::VectorXd::Ones(problem.bounds.lower.size());
         for (const double lower : {-10.0, -0.01, 0.0, 0.02}) {  // nowhere, in part, on the rest state, lifted
-          problem.lower = lower * ones;
+          problem.bounds.lower = lower * ones;
           const Outcome dense = by(ContactReduction::schur_complement, problem),
                         sparse = by(ContactReduction::sparse, problem);
           const std::string what = fmt::format("{} {} epsilon {} lower {}", name, structured, epsilon, lower);
@@ -119,7 +119,7 @@ TEST(ManyBounds, BothRoadsFindTheSameDiscUnderAMembrane) {
   EXPECT_LE(apart(dense.s, sparse.s), 1e-13);
   EXPECT_LE((dense.s.lambda - sparse.s.lambda).lpNorm<Eigen::Infinity>(), 1e-12 * dense.s.lambda.maxCoeff());
   EXPECT_EQ(dense.s.counters.factorisations, 1);
-  std::vector<bool> mixed(problem.bound_count());
+  std::vector<bool> mixed(problem.bounds.count());
   for (std::size_t i = 0; i < mixed.size(); i += 2) mixed[i] = true;
   ActiveSetOptions options;
   options.reduction = ContactReduction::sparse;
@@ -131,12 +131,12 @@ TEST(ManyBounds, BothRoadsFindTheSameDiscUnderAMembrane) {
 // unknowns are equations, others bounded from above alone.
 TEST(ManyBounds, BothRoadsAgreeBetweenTwoObstacles) {
   VariationalInequality problem = membrane_over_obstacle(28);
-  problem.upper = problem.lower.array() + 0.3;
+  problem.bounds.upper = problem.bounds.lower.array() + 0.3;
   for (int i = 0; i < problem.size(); ++i) {
     problem.load(i) *= i % 27 < 13 ? 3 : -3;
-    if (i % 50 == 7) problem.upper(i) = problem.lower(i);
-    if (i % 31 == 5) problem.lower(i) = -infinity;
-    if (i % 31 == 6) problem.upper(i) = infinity;
+    if (i % 50 == 7) problem.bounds.upper(i) = problem.bounds.lower(i);
+    if (i % 31 == 5) problem.bounds.lower(i) = -infinity;
+    if (i % 31 == 6) problem.bounds.upper(i) = infinity;
   }
   const Outcome dense = by(ContactReduction::schur_complement, problem), sparse = by(ContactReduction::sparse, problem);
   ASSERT_EQ(dense.refusal + sparse.refusal, "");
@@ -150,7 +150,7 @@ TEST(ManyBounds, BothRoadsAgreeBetweenTwoObstacles) {
 // All bounds hold, none does, they graze: u is the obstacle, which is its own solution.
 TEST(ManyBounds, DegenerateContactIsTheSameByBothRoads) {
   VariationalInequality problem = membrane_over_obstacle(16);
-  const Eigen::VectorXd grazing = problem.a1 * problem.lower;  // u = lower with no force
+  const Eigen::VectorXd grazing = problem.a1 * problem.bounds.lower;  // u = lower with no force
   for (const double push : {-1.0, 0.0, 1e-13, 1.0}) {
     problem.load = grazing + push * Eigen::VectorXd::Ones(problem.size());
     const Outcome dense = by(ContactReduction::schur_complement, problem),
@@ -162,7 +162,7 @@ TEST(ManyBounds, DegenerateContactIsTheSameByBothRoads) {
     }
   }
   problem.load.setZero();
-  problem.lower.setZero();
+  problem.bounds.lower.setZero();
   for (const ContactReduction reduction : {ContactReduction::schur_complement, ContactReduction::sparse}) {
     const Outcome rest = by(reduction, problem);
     EXPECT_TRUE(rest.s.u.isZero(0));
@@ -188,7 +188,7 @@ TEST(ManyBounds, TheNestedStartKeepsTheStepsFew) {
 BoundStatuses nested_start_of(const VariationalInequality& problem) {
   ConstrainedCholesky k;
   EXPECT_FALSE(k.factorise(SparseMatrix(problem.a1.triangularView<Eigen::Upper>())));
-  return SparseContact(k, problem.load, problem.contact).nested_start({problem.lower}, 100);
+  return SparseContact(k, problem.load, problem.bounds.unknowns).nested_start(problem.bounds.limits(), 100);
 }
 
 TEST(ManyBounds, TheNestedStartIsMostOfTheContactSetAndLittleElse) {
@@ -212,8 +212,8 @@ TEST(ManyBounds, TheNestedStartIsMostOfTheContactSetAndLittleElse) {
 TEST(ManyBounds, TheNestedStartHoldsNoBoundThatIsNotThere) {
   VariationalInequality problem = membrane_over_obstacle(28);
   for (const int hole : {0, 29}) {
-    problem.lower.setZero();
-    problem.lower(hole) = -infinity;
+    problem.bounds.lower.setZero();
+    problem.bounds.lower(hole) = -infinity;
     const BoundStatuses start = nested_start_of(problem);
     EXPECT_FALSE(is_active(start[hole])) << hole;
     EXPECT_GT(std::count(start.begin(), start.end(), BoundStatus::at_lower), 700) << hole;  // of 729
@@ -240,7 +240,7 @@ TEST(ManyBounds, OneFactorServesASweepOverLoadsBoundsAndCompliances) {
       VariationalInequality other = problem;
       other.compliance = compliance;
       other.load *= size;
-      other.lower.array() -= 0.001 * std::abs(size);
+      other.bounds.lower.array() -= 0.001 * std::abs(size);
       const Outcome alone = by(ContactReduction::schur_complement, other);
       ASSERT_EQ(alone.refusal, "");
       EXPECT_LE(apart(alone.s, active_set(other, factor)), 1e-10) << compliance << " " << size;
@@ -268,8 +268,11 @@ TEST(ManyBounds, WhatIsWrongIsRefusedHereToo) {
     expect_refused([&] { active_set(bad, factor); }, words);
   };
   using P = VariationalInequality;
-  refused([](P& p) { p.contact.pop_back(), p.lower.conservativeResize(p.lower.size() - 1); },
-          "free and contact unknowns");
+  const auto without_last = [](P& p) {
+    const std::vector<int> fewer(p.bounds.unknowns.begin(), p.bounds.unknowns.end() - 1);
+    p.bounds = Bounds::lower_on(fewer, p.bounds.lower.head(p.bounds.count() - 1));
+  };
+  refused(without_last, "free and contact unknowns");
   problem.a1.coeffRef(0, 1) = 3;
   expect_refused([&] { active_set(problem); }, "not symmetric");
 
@@ -285,7 +288,7 @@ TEST(ManyBounds, WhatIsWrongIsRefusedHereToo) {
   infeasible.b.makeCompressed();
   infeasible.m = Eigen::VectorXd::Ones(1);
   infeasible.compliance = 0;
-  infeasible.lower(364) = 0.05;
+  infeasible.bounds.lower(364) = 0.05;
   EXPECT_THROW(active_set(infeasible), NotConverged);
 }
 

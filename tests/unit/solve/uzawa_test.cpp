@@ -164,9 +164,8 @@ TEST(Uzawa, UnitsDecadesApartTakeAStepEach) {
 
 TEST(Uzawa, StepsFindTheForcesOfEquations) {
   VariationalInequality problem = chain_in_units_apart();
-  problem.upper = Eigen::VectorXd::Constant(5, infinity);
-  problem.lower(1) = problem.upper(1) = 0.25e-4;
-  problem.lower(3) = problem.upper(3) = -0.125;
+  problem.bounds.lower(1) = problem.bounds.upper(1) = 0.25e-4;
+  problem.bounds.lower(3) = problem.bounds.upper(3) = -0.125;
   const Solution exact = active_set(problem), s = uzawa(problem);
   EXPECT_LT(relative_difference(s.u, exact.u), 1e-9);
   EXPECT_EQ(s.active, exact.active);
@@ -179,7 +178,7 @@ VariationalInequality one_spring() {
 
 TEST(Uzawa, OneUnknownStopsAtEitherBound) {
   VariationalInequality problem = one_spring();
-  problem.upper = Eigen::VectorXd{{3}};
+  problem.bounds.upper = Eigen::VectorXd{{3}};
   for (const double load : {-10.0, -1.0, 0.0, 5.0, 10.0}) {  // 2 u = load + lambda
     problem.load(0) = load;
     const Solution s = uzawa(problem);
@@ -199,7 +198,7 @@ TEST(Uzawa, TheDualityGapOfOneSpringIsTheEnergyBetween) {
   }
   // a bound that bears no more than 3 takes up 3 * 4 on the way to -5: J(-5) = -25 + 12
   VariationalInequality soft = one_spring();
-  soft.force_limit = Eigen::VectorXd{{3}};
+  soft.bounds.force_limit = Eigen::VectorXd{{3}};
   for (const double energy : {11.9, 12.1}) {
     options.stop_at = {energy, 1};
     EXPECT_EQ(uzawa(soft, options).counters.contact_iterations == 0, energy > 12) << energy;

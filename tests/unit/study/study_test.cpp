@@ -157,9 +157,9 @@ TEST(SweepOfAnyProblem, TakesAnotherLoadAndOtherBounds) {
   Sweep sweep(problem);
   sweep.solve();
   problem.load *= 0.5;
-  problem.lower *= 0.7;
+  problem.bounds.lower *= 0.7;
   sweep.set_load(problem.load);
-  sweep.set_bounds(problem.lower);
+  sweep.set_bounds(problem.bounds.lower);
   const Solution swept = sweep.solve();
   expect_same(swept, active_set(problem), beam.epsilon);
   EXPECT_EQ(swept.counters.factorisations, 0);

@@ -27,7 +27,7 @@ namespace antilock {
 class SlackForm {
  public:
   SlackForm(const VariationalInequality& problem, double delta) : problem_(problem) {
-    if (problem.constraints.rows() > 0) introduce_slacks(slack_problem_.emplace(problem), delta);
+    if (problem.bounds.constraints.rows() > 0) introduce_slacks(slack_problem_.emplace(problem), delta);
   }
   const VariationalInequality& operator*() const { return slack_problem_ ? *slack_problem_ : problem_; }
   const VariationalInequality* operator->() const { return &**this; }
@@ -36,7 +36,7 @@ class SlackForm {
 
  private:
   void introduce_slacks(VariationalInequality& problem, double delta) {
-    const Eigen::Index n = problem.size(), rows = problem.b.rows(), slacks = problem.constraints.rows();
+    const Eigen::Index n = problem.size(), rows = problem.b.rows(), slacks = problem.bounds.constraints.rows();
     Eigen::VectorXd stiffness = problem.a1.diagonal();
     stiffness += problem.b.cwiseAbs2().transpose() * problem.m / delta;
     for (const int i : problem.dirichlet_dofs) stiffness(i) = std::numeric_limits<double>::infinity();
@@ -47,7 +47,7 @@ class SlackForm {
                         "B' M B that is positive definite on the free unknowns",
                         j));
     problem.fixed_compliances.conservativeResizeLike(Eigen::VectorXd::Zero(problem.fixed_compliances.size() + slacks));
-    problem.constraints.resize(0, 0);
+    problem.bounds.constraints.resize(0, 0);
     problem.a1.conservativeResize(n + slacks, n + slacks);
     problem.a1.makeCompressed();
     problem.load.conservativeResizeLike(Eigen::VectorXd::Zero(n + slacks));
@@ -56,25 +56,25 @@ class SlackForm {
     scale_.resize(slacks);
     for (Eigen::Index k = 0; k < slacks; ++k) {
       double largest = 0, flexibility = 0;
-      for (RowMatrix::InnerIterator c(problem_.constraints, k); c; ++c)
+      for (RowMatrix::InnerIterator c(problem_.bounds.constraints, k); c; ++c)
         largest = std::max(largest, std::abs(c.value()));
       scale_(k) = std::ldexp(1, -std::ilogb(largest));
-      for (RowMatrix::InnerIterator c(problem_.constraints, k); c; ++c) {
+      for (RowMatrix::InnerIterator c(problem_.bounds.constraints, k); c; ++c) {
         const double value = problem.b.insert(rows + k, c.col()) = scale_(k) * c.value();
         flexibility += value * value / stiffness(c.col());
       }
       problem.b.insert(rows + k, n + k) = -1;
       problem.m(rows + k) = delta * defaults::slack_stiffness_ratio / flexibility;
-      problem.contact.push_back(static_cast<int>(n + k));
+      problem.bounds.unknowns.push_back(static_cast<int>(n + k));
     }
     problem.b.makeCompressed();
-    problem.lower = scaled(std::move(problem.lower), scale_);
-    problem.upper = scaled(std::move(problem.upper), scale_);
-    problem.force_limit = scaled(std::move(problem.force_limit), scale_.cwiseInverse());
+    problem.bounds.lower = scaled(std::move(problem.bounds.lower), scale_);
+    problem.bounds.upper = scaled(std::move(problem.bounds.upper), scale_);
+    problem.bounds.force_limit = scaled(std::move(problem.bounds.force_limit), scale_.cwiseInverse());
   }
 
   static Eigen::VectorXd scaled(Eigen::VectorXd bound, const Eigen::VectorXd& scale) {
-    if (bound.size() > 0) bound.tail(scale.size()).array() *= scale.array();
+    bound.tail(scale.size()).array() *= scale.array();
     return bound;
   }
 
