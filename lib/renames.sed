@@ -57,7 +57,7 @@ s/\busual_penalty\b/default_penalty/g
 s/\bmoderate_delta\b/penalty_parameter/g
 
 # solve
-s/\bStairs\b/Bounds/g
+s/\bStairs\b/ShiftedBounds/g
 s/\bPiece::below\b/BoundStatus::slip_below/g
 s/\bPiece::between\b/BoundStatus::inactive/g
 s/\bPiece::above\b/BoundStatus::slip_above/g
