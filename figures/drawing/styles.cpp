@@ -70,11 +70,14 @@ const Row rows[] = {
     {"P1 with one-point shear", "$P_1$, shear at one point", "", {olive, down_triangle, 6}},
     {"Duran-Liberman", "Durán–Liberman", "", {blue, circle, 6}},
     {"Arnold-Falk", "Arnold–Falk", "", {purple, triangle, 8.5}},
-    // integration of the beam, glue of the strings
+    // integration of the beam, the two strings
     {"full integration", "full integration", "", {vermillion, square, 8}},
     {"reduced integration", "reduced integration", "", {blue, circle, 6}},
     {"glue at every point", "glue at every point", "", {vermillion, square, 9}},
     {"glue against hat functions", "glue against hat functions", "", {blue, circle, 6}},
+    {"upper string", "upper string", "", {blue, circle, 9}},
+    {"lower string", "lower string", "", {vermillion, square, 5}},
+    {"floor", "floor", "", {grey, circle, 2}},
     // solvers, and the two ways to hold the stiff form
     {"split form", "split form", "", {blue, circle, 10.5}},
     {"cure in 20 lines", "cure in 20 lines", "", {sky, square, 3.5}},

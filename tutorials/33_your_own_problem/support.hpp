@@ -66,6 +66,13 @@ struct Strings {
   int upper(int i) const { return i; }
   int lower(int i) const { return upper_cells() + 1 + i; }
   int size() const { return upper_cells() + cells + 2; }
+  double corner(int i) const { return static_cast<double>(i) / cells; }  ///< of the lower string
+  /// Returns the unknowns of the lower string between its ends.
+  std::vector<int> inside_lower() const {
+    std::vector<int> inside;
+    for (int i = 1; i < cells; ++i) inside.push_back(lower(i));
+    return inside;
+  }
 };
 
 /// The hat function of corner i of a string of so many cells, at x.
@@ -80,6 +87,21 @@ inline Eigen::RowVectorXd difference(const Strings& s, double x) {
   for (int i = 0; i <= s.upper_cells(); ++i) row(s.upper(i)) = hat(s.upper_cells(), i, x);
   for (int i = 0; i <= s.cells; ++i) row(s.lower(i)) = -hat(s.cells, i, x);
   return row;
+}
+
+/// Returns the heights of both strings and the pressures below them, at the corners of the lower string: what carries
+/// the upper string there is the lower one, and what carries the lower one is the floor. The lower string hangs
+/// `distance` below the upper one, and `distance` above the floor.
+inline Table touching_table(const Strings& s, const Eigen::VectorXd& u, const Eigen::VectorXd& pair,
+                            const Eigen::VectorXd& floor, double distance) {
+  Table table({"x", "upper", "lower", "floor", "on_upper", "on_lower"});
+  for (int i = 0; i <= s.cells; ++i) {
+    const bool inside = i > 0 && i < s.cells;
+    const double lower = u(s.lower(i)), upper = lower + difference(s, s.corner(i)).dot(u);
+    table.add({s.corner(i), upper, lower - distance, -2 * distance, inside ? pair(i - 1) * s.cells : 0.0,
+               inside ? floor(i - 1) * s.cells : 0.0});
+  }
+  return table;
 }
 
 /// A place of [0, 1] and its weight.
