@@ -55,7 +55,7 @@ TEST(OnlyWhatIsNeeded, EdgesAndStiffnessAreIntegratedWhereTheyAre) {
   for (const Layer& layer : {Layer(NoLayer{}), Layer(StiffLayer{1e-3})}) {
     TriangleMesh mesh = structured_mesh(n, {std::holds_alternative<NoLayer>(layer) ? 0.0 : 1.0});
     for (int e = 0; e < mesh.edge_count(); ++e) {
-      const auto x = mesh.vertices(mesh.edges.row(e), Eigen::all).colwise().mean().eval();
+      const auto x = mesh.vertices(mesh.edges.row(e), Eigen::indexing::all).colwise().mean().eval();
       if (mesh.edge_tag[e] == EdgeTag::clamped && x(1) > 0)
         mesh.edge_tag[e] = x(0) == 0 ? dirichlet_group(0) : natural_group(x(0) == 1 ? 1 : 2);
     }

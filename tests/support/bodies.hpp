@@ -14,7 +14,7 @@ inline TriangleMesh submesh(int cells, const std::function<bool(double x, double
   return antilock::submesh(square,
                            [&](int t) {
                              const auto centroid =
-                                 square.vertices(square.triangles.row(t), Eigen::all).colwise().mean().eval();
+                                 square.vertices(square.triangles.row(t), Eigen::indexing::all).colwise().mean().eval();
                              return inside(centroid(0), centroid(1));
                            })
       .mesh;
@@ -33,7 +33,7 @@ inline TriangleMesh bridge(int cells) {
 inline TriangleMesh retagged(TriangleMesh mesh, const std::function<EdgeTag(double x, double y)>& tag) {
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_tag[e] == EdgeTag::clamped) {
-      const auto x = mesh.vertices(mesh.edges.row(e), Eigen::all).colwise().mean().eval();
+      const auto x = mesh.vertices(mesh.edges.row(e), Eigen::indexing::all).colwise().mean().eval();
       mesh.edge_tag[e] = tag(x(0), x(1));
     }
   return mesh;

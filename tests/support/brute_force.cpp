@@ -59,7 +59,7 @@ BruteForce brute_force(const VariationalInequality& problem) {
   if (b.rows() > 0 && problem.compliance > 0)
     k += b.transpose() * m.asDiagonal() * b / static_cast<long double>(problem.compliance);
   if (b.rows() > 0 && problem.compliance == 0) {
-    Eigen::FullPivLU<LongMatrix> lu(b(Eigen::all, free));
+    Eigen::FullPivLU<LongMatrix> lu(b(Eigen::indexing::all, free));
     lu.setThreshold(1e-12L);
     basis = lu.kernel();  // one column of zeros where the kernel is trivial
   }
@@ -72,7 +72,7 @@ BruteForce brute_force(const VariationalInequality& problem) {
   LongMatrix rows = LongMatrix::Zero(c, problem.size());  // what is bounded
   for (int i = 0; i < contact; ++i) rows(i, problem.bounds.unknowns[i]) = 1;
   if (c > contact) rows.bottomRows(c - contact) = Eigen::MatrixXd(problem.bounds.constraints).cast<long double>();
-  const LongMatrix on_free = rows(Eigen::all, free);
+  const LongMatrix on_free = rows(Eigen::indexing::all, free);
   const LongVector unloaded = rows * u_fixed + on_free * (response * force);
   const LongMatrix compliance = on_free * response * on_free.transpose();
   const LongVector lower = problem.bounds.lower.cast<long double>();

@@ -62,7 +62,7 @@ ByHand assemble_by_hand(const TriangleMesh& mesh) {
   ByHand p{MatrixXd::Zero(n, n), MatrixXd::Zero(rows, n), VectorXd::Zero(rows), VectorXd::Zero(n), {}, {}};
   for (int t = 0, row = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::RowVector3i v = mesh.triangles.row(t);
-    const Corners x = mesh.vertices(v, Eigen::all);
+    const Corners x = mesh.vertices(v, Eigen::indexing::all);
     const Eigen::RowVector2d one = x.row(1) - x.row(0), two = x.row(2) - x.row(0);
     const double area = 0.5 * (one(0) * two(1) - one(1) * two(0));
     const Eigen::Vector3d dx = hat_gradients(x, area).col(0), dy = hat_gradients(x, area).col(1);

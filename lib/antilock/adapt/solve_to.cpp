@@ -158,8 +158,10 @@ std::set<std::pair<double, EdgeTag>> layer_edge_tags(const TriangleMesh& mesh) {
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const bool outer = mesh.edge_triangles(e, 1) < 0;
     if (!outer || mesh.region[mesh.edge_triangles(e, 0)] != Region::layer) continue;
-    const bool below = (mesh.vertices(mesh.edges.row(e), 1).array() < -1 + 1e-6).all();
-    for (const int v : mesh.edges.row(e)) {
+    const Eigen::RowVector2i ends = mesh.edges.row(e);
+    const double highest_end = std::max(mesh.vertices(ends(0), 1), mesh.vertices(ends(1), 1));
+    const bool below = highest_end < -1 + 1e-6;
+    for (const int v : ends) {
       const double place = below ? -INFINITY : std::round(digits * mesh.vertices(v, 0));
       tags.emplace(place, mesh.edge_tag[e]);
     }

@@ -61,7 +61,7 @@ Eigen::Index layer_triangle_count(const TriangleMesh& mesh) {
 /// Their corners, three rows per triangle.
 Points layer_corners(const TriangleMesh& mesh) {
   const auto corners = mesh.triangles.bottomRows(layer_triangle_count(mesh)).reshaped<Eigen::RowMajor>();
-  return mesh.vertices(corners, Eigen::all);
+  return mesh.vertices(corners, Eigen::indexing::all);
 }
 
 constexpr int intervals = 32;  // of an edge: the gap is sampled at their ends

@@ -368,7 +368,7 @@ double dual_energy(const EquilibratedFlux& flux, const VariationalInequality& pr
 // lambda_i) P_i
 Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Eigen::MatrixX3d& barycentric) const {
   const FluxCell& here = cell[t];
-  const Eigen::Matrix<double, 3, 2> corner = mesh.vertices(mesh.triangles.row(t), Eigen::all);
+  const Eigen::Matrix<double, 3, 2> corner = mesh.vertices(mesh.triangles.row(t), Eigen::indexing::all);
   const Eigen::Matrix<double, 3, 2> weighted = here.f.asDiagonal() * corner;
   const double mean = here.f.mean();
   const Eigen::RowVector2d constant =

@@ -82,8 +82,8 @@ TriangleMesh subdomain_of(const TriangleMesh& coarse, const std::vector<int>& ra
     number[v] = static_cast<int>(vertices.size());
     vertices.push_back(v);
   }
-  subdomain.vertices = coarse.vertices(vertices, Eigen::all);
-  subdomain.triangles = coarse.triangles(triangles, Eigen::all).unaryExpr([&](int v) { return number[v]; });
+  subdomain.vertices = coarse.vertices(vertices, Eigen::indexing::all);
+  subdomain.triangles = coarse.triangles(triangles, Eigen::indexing::all).unaryExpr([&](int v) { return number[v]; });
   number_edges(subdomain, "a subdomain of the mesh");
   for (int t = 0; t < subdomain.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i)

@@ -32,7 +32,7 @@ SigmaEdges sigma_edges(const TriangleMesh& mesh, bool along_normals) {
     const auto corners = mesh.triangles.row(mesh.edge_triangles(e, 0));
     const Eigen::RowVector2d from = mesh.vertices.row(ends[0]);
     const Eigen::RowVector2d along = mesh.vertices.row(ends[1]) - from;
-    const Eigen::RowVector2d up = mesh.vertices(corners, Eigen::all).colwise().mean() - from;
+    const Eigen::RowVector2d up = mesh.vertices(corners, Eigen::indexing::all).colwise().mean() - from;
     if (along_normals && along(0) * up(1) <= along(1) * up(0))
       throw Error("extruded layer: the body is not above its contact edge at " + mesh.location_text(ends[0]) +
                   "; accepted: edges with the body above them");

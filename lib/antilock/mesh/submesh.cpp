@@ -33,7 +33,7 @@ Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)
     if (owners[e] == 1 && tag == EdgeTag::sigma) tag = EdgeTag::contact;
     if (tag != EdgeTag::interior) tagged.push_back({number[mesh.edges(e, 0)], number[mesh.edges(e, 1)], tag});
   }
-  Points points = mesh.vertices(part.old_vertex, Eigen::all);
+  Points points = mesh.vertices(part.old_vertex, Eigen::indexing::all);
   part.mesh =
       make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), tagged, "a part of a mesh");
   part.mesh.geometry = mesh.geometry;

@@ -54,7 +54,7 @@ Extent check_bottom_edge(const TriangleMesh& mesh, EdgeTag tag) {
   Extent bottom;
   double tagged = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    const Eigen::Matrix2d ends = mesh.vertices(mesh.edges.row(e), Eigen::all);
+    const Eigen::Matrix2d ends = mesh.vertices(mesh.edges.row(e), Eigen::indexing::all);
     if (ends.col(1).cwiseAbs().maxCoeff() > off) continue;
     if (body(mesh.edge_triangles(e, 0)) == body(mesh.edge_triangles(e, 1))) continue;  // not where the body ends
     const Eigen::RowVector2d along = (ends.row(1) - ends.row(0)).cwiseAbs();

@@ -77,7 +77,7 @@ FixedStatusSolution SchurComplementContact::solve(const std::vector<char>& activ
     const Eigen::VectorXd v = factor_of(s_(free, free)).solve(rhs);
     now.v(free) = v;
   }
-  if (!fixed.empty()) now.lambda(fixed) = s_(fixed, Eigen::all) * now.v - q_(fixed);
+  if (!fixed.empty()) now.lambda(fixed) = s_(fixed, Eigen::indexing::all) * now.v - q_(fixed);
   // each force by the terms of its own row: one stiff unknown must not hide the pull on a soft one
   now.round_off = defaults::round_off * (s_.cwiseAbs() * now.v.cwiseAbs() + q_.cwiseAbs());
   return now;

@@ -45,7 +45,7 @@ Space::Numbering::Numbering(const TriangleMesh& mesh, const Element& element) {
         cell_dofs(t, local++) = first_edge + dofs_per_edge * e + (forward ? k : dofs_per_edge - 1 - k);
     }
     for (int k = 0; k < dofs_per_cell; ++k) cell_dofs(t, local++) = first_inner + dofs_per_cell * t + k;
-    const Eigen::Matrix<double, 3, 2> corners = mesh.vertices(mesh.triangles.row(t), Eigen::all);
+    const Eigen::Matrix<double, 3, 2> corners = mesh.vertices(mesh.triangles.row(t), Eigen::indexing::all);
     for (int i = 0; i < local; ++i) dof_coordinates.row(cell_dofs(t, i)) = nodes.row(i) * corners;
   }
 

@@ -134,10 +134,12 @@ bool is_unit_square(const TriangleMesh& mesh) {
       return false;
   }
   const double lowest = mesh.vertices.col(1).minCoeff();
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (const bool below = (mesh.vertices(mesh.edges.row(e), 1).array() < lowest + 1e-6).all();
-        mesh.edge_triangles(e, 1) < 0 && mesh.edge_tag[e] != (below ? EdgeTag::contact : EdgeTag::clamped))
-      return false;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_triangles(e, 1) >= 0) continue;
+    const double highest_end = std::max(mesh.vertices(mesh.edges(e, 0), 1), mesh.vertices(mesh.edges(e, 1), 1));
+    const EdgeTag expected = highest_end < lowest + 1e-6 ? EdgeTag::contact : EdgeTag::clamped;
+    if (mesh.edge_tag[e] != expected) return false;
+  }
   return true;
 }
 
