@@ -94,7 +94,7 @@ Table interpolate(const std::vector<int>& cells, const Element& element) {
   return table;
 }
 
-void robust(const tutorial::Options& options, tutorial::Report& report) {
+void nonconforming(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
   // The very mesh of chapter 06, and two spaces on it.
   const Space conforming = Method{&p1(), unstructured()}.space(options.cells);
@@ -159,5 +159,5 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "08_crouzeix_raviart", "Figure 8: Crouzeix-Raviart does not lock on any mesh",
-                       {.exercises = exercises}, robust);
+                       {.exercises = exercises}, nonconforming);
 }

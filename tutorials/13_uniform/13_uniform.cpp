@@ -17,23 +17,30 @@
 //
 // ## Limit and supremum do not commute
 //
-// For each *fixed* ε > 0 every method here converges (Proposition 2). That is one limit per ε, and each of them may
-// begin on a finer mesh than the one before. What a user needs is one bound for all ε. So the order of the two steps is
-// turned round: first, on each mesh, the worst error over ε; then the limit in $h$. A method is **free of locking** if
-// this worst error tends to 0,
+// For each *fixed* ε > 0 every method here converges (Proposition 2). That is one limit per
+// ε, and each of them may begin on a finer mesh than the one before. What a user needs is
+// one bound for all ε. So the order of the two steps is turned round: first, on each mesh,
+// the worst error over ε; then the limit in $h$. A method is **robust**, or *uniformly
+// convergent*, if this worst error tends to 0,
 //
 // $$ \lim_{h → 0} \sup_{0 < ε ≤ 1} ‖u_h^ε - u^ε‖_h = 0. $$
 //
-// Nothing is said about how fast. A method is **robust** if the worst error has the order that the error has where
-// nothing is stiff, at ε = 1. Robust is more: a method whose worst error falls like $h^{1/2}$ is free of locking, and
-// not robust. Babuška and Suri, [3] of the paper, measure it by the *locking ratio*. Write $E(ε, N)$ for the error with
-// $N$ unknowns. The ratio is the worst error over the error at ε = 1,
+// Nothing is said about how fast. A method is **free of locking** if the worst error has
+// the order that the error has where nothing is stiff, at ε = 1. Free of locking is more: a
+// method whose worst error falls like $h^{1/2}$ is robust, and not free of locking. A
+// method that is not robust **locks** in the strongest sense: its worst error stays.
+// Babuška and Suri, [3] of the paper, measure locking by the *locking ratio*. Write
+// $E(ε, N)$ for the error with $N$ unknowns. The ratio is the worst error over the error at
+// ε = 1,
 //
 // $$ L(N) = \frac{\sup_ε E(ε, N)}{E(1, N)}. $$
 //
-// If it is bounded, the method is robust. If it grows, but more slowly than $E(1, N)$ falls, the method is free of
-// locking without being robust. (They take the supremum over a family of problems, too:
-// [chapter 17](../17_families_of_loads/17_families_of_loads.cpp).)
+// If the error at ε = 1 tends to 0 and the ratio is bounded, the method is free of locking.
+// If the ratio grows, but more slowly than $E(1, N)$ falls, the method is robust without
+// being free of locking. (They take the supremum over a set of solutions, too: [chapter
+// 17](../17_families_of_loads/17_families_of_loads.cpp).) The words are those of [3], and
+// the paper calls Theorem 7, which has no order, robustness. Other authors say "free of
+// locking" where the error merely converges uniformly.
 //
 // ## Away from 0, and near it
 //
@@ -48,12 +55,15 @@
 // mesh: that is the point. The same lines hold for $u^ε$. So finitely many values of ε stand for all others, on all meshes
 // at once, and at each of these finitely many the method converges.
 //
-// **Theorem 4.** *If $K_h$ approaches $K$ and $K_{0h}$ approaches $K_0$, the method is free of locking.* (It needs
-// (H0nc) and (H1nc) as well, which conforming methods have for nothing and Crouzeix–Raviart has:
-// [chapter 14](../14_estimates/14_estimates.cpp). The paper leaves them out here.) Suppose that a method with both properties is not
-// free of locking. Then there are $h_n → 0$ and $ε_n$ with errors above some $c > 0$. Numbers of $[0, 1]$ have limit
-// points, so a part of the $ε_n$ tends to some $\bar ε$. If $\bar ε > 0$, the $ε_n$ keep away from 0 from some $n$ on,
-// and this contradicts Proposition 4. If $\bar ε = 0$, both $h$ and ε tend to 0, and it contradicts Proposition 3.
+// **Theorem 4.** *If $K_h$ approaches $K$ and $K_{0h}$ approaches $K_0$, the method is
+// robust.* (It needs (H0nc) and (H1nc) as well, which conforming methods have for nothing
+// and Crouzeix–Raviart has: [chapter 14](../14_estimates/14_estimates.cpp). The paper
+// supposes them from its Section 3.1 on.) Suppose that a method with both properties is not
+// robust. Then there are $h_n → 0$ and $ε_n$ with errors above some $c > 0$. Numbers of
+// $[0, 1]$ have limit points, so a part of the $ε_n$ tends to some $\bar ε$. If
+// $\bar ε > 0$, the $ε_n$ keep away from 0 from some $n$ on, and this contradicts
+// Proposition 4. If $\bar ε = 0$, both $h$ and ε tend to 0, and it contradicts Proposition
+// 3.
 //
 // **Theorem 5** is Theorem 4 for P1 on the structured mesh. In the layer the interpolant of a smooth $v ∈ K_0$ takes
 // one value per vertical line, so it is in $K_{0h}$. Smooth $v$ are enough, by Lemma 1. **Theorem 7** is Theorem 4
@@ -171,8 +181,8 @@ void judge(const Method& method, const Table& own, const Table& worst, double lo
     report.claim_order(worst, "h1", "h", 0.95, 1.05,
                        name + theorem + ": worst H1 error (it falls: proved; order observed)");
     report.claim_order(worst, "energy", "h", 0.95, 1.05, name + ", Remark 4: worst energy error");
-    report.claim(worst.max("ratio") < 1.05, "{} is robust: locking ratio {:.3f} on all meshes (observed)", name,
-                 worst.max("ratio"));
+    report.claim(worst.max("ratio") < 1.05, "{} is free of locking: locking ratio {:.3f} on all meshes (observed)",
+                 name, worst.max("ratio"));
     return;
   }
   report.claim(worst.min("h1") > lost,
@@ -196,12 +206,13 @@ void judge(const Method& method, const Table& own, const Table& worst, double lo
 //
 // :figure: uniform
 //
-// Hypothesis and conclusion of Theorem 4 go together. Where the distance from $u^0$ to $K_{0h}$ falls like
-// $h^{0.98}$, so does the worst error, and the locking ratio is at most 1.02: these methods are robust. For P1 off
-// columns both stay, on the unstructured mesh at 0.148 on 1/32 and never below 0.126, and the locking ratio grows.
-// (a) Yes, with order 0.98. The *wall* is the ε at which half is lost, $5.84 k$ by chapter 06. On $[0.01, 1]$ the error
-// falls once it is to the left of 0.01. (b) No: refining moves the wall, and in $]0, 1]$ there is always an ε left of
-// it.
+// Hypothesis and conclusion of Theorem 4 go together. Where the distance from $u^0$ to
+// $K_{0h}$ falls like $h^{0.98}$, so does the worst error, and the locking ratio is at most
+// 1.02: on these meshes the methods are free of locking. For P1 off columns both stay, on
+// the unstructured mesh at 0.148 on 1/32 and never below 0.126, and the locking ratio
+// grows. (a) Yes, with order 0.98. The *wall* is the ε at which half is lost, about
+// $5.84 k$ by chapter 06. On $[0.01, 1]$ the error falls once it is to the left of 0.01.
+// (b) No: refining moves the wall, and in $]0, 1]$ there is always an ε left of it.
 //
 // :figure: restricted
 //

@@ -27,10 +27,12 @@
 // or CR triangle $\operatorname{div} u$ is constant: one row of $B$ per triangle, $2n^2$ conditions. P1 has two
 // unknowns per vertex that is not held: $2n(n + 1)$. On parallel triangles $2n$ functions are left.
 //
-// Is that too few? In chapter 07 structured P1 keeps $n - 1$ of the layer's some $n^2$ unknowns, and it is robust. There
-// $G$ holds functions of one variable, and $n - 1$ values describe them. Here $G$ holds the fields that keep the volume.
-// In the plane these are $u = (∂_y φ, -∂_x φ)$ with a *stream function* $φ(x, y)$. A function of two variables asks for
-// about $n^2$ values, and $2n$ of them cannot do. Three cures leave about $n^2$ or more:
+// Is that too few? In chapter 07 structured P1 keeps $n - 1$ of the layer's some $n^2$
+// unknowns, and it does not lock. There $G$ holds functions of one variable, and $n - 1$
+// values describe them. Here $G$ holds the fields that keep the volume. In the plane these
+// are $u = (∂_y φ, -∂_x φ)$ with a *stream function* $φ(x, y)$. A function of two variables
+// asks for about $n^2$ values, and $2n$ of them cannot do. Three cures leave about $n^2$ or
+// more:
 //
 // - *crossed triangles*: each square is cut by both diagonals, and one of its four conditions follows from the other
 // three;
