@@ -11,9 +11,10 @@
 // own lower side, $Γ_{C,ε}$, it may touch a rigid obstacle. The obstacle is drawn apart from it, to be seen: in the
 // problem there is no distance between them.
 //
-// **What $u$ is.** The displacement $u(x, y)$ points out of the plane of the drawing: this is *anti-plane* elasticity.
-// The body is sheared, as a pack of cards is, and each card moves as a whole. The obstacle is a stop for this
-// displacement: $u ≥ 0$ on $Γ_{C,ε}$.
+// **What $u$ is.** The displacement $u(x, y)$ points out of the plane of the drawing: this
+// is *anti-plane* elasticity. The body is sheared, as a bundle of pencils is of which each
+// is pushed along its length. Every line at right angles to the drawing moves as a whole.
+// The obstacle is a stop for this displacement: $u ≥ 0$ on $Γ_{C,ε}$.
 //
 // **Predict.** (a) The layer becomes thinner, and its stiffness grows like $1/ε$. Does it cost more or less energy to
 // shear it along $x$, so that $u$ changes from left to right? (b) And to shear it across, so that $u$ changes from
@@ -61,9 +62,10 @@
 // clamped. Write $Ω$ for body and unit layer together, and $(f, v)$ for the work of the load. The displacements that
 // are allowed without and with the obstacle are
 //
-// $$ V = \{ v : v = 0 on Γ_D \},   K = \{ v ∈ V : v ≥ 0 on Γ_C \},   (f, v) = ∫_{Ω^+} f v, $$
+// $$ V = \{ v : v = 0 on Γ_D \},   K = \{ v ∈ V : v ≥ 0 on Γ_C \},   (f, v) = ∫_{Ω^+} f v. $$
 //
-// and the problem of this whole course reads
+// The functions of $V$ have finite energy: $∫_Ω v^2 + |∇v|^2$ is finite, and its root $‖v‖$
+// is their *norm*. (This is the space $H^1$.) The problem of this whole course reads
 //
 // $$ u ∈ K,   a^+(u, v-u) + a_x^-(u, v-u) + ε^{-2} a_y^-(u, v-u) ≥ (f, v-u)   for all v ∈ K. \tag{23} $$
 //
