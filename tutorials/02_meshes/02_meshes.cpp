@@ -97,7 +97,7 @@ Groups tied(const TriangleMesh& mesh) {
     if (two < 0 || mesh.region[one] != Region::layer || mesh.region[two] != Region::layer) continue;
     const double run = mesh.vertices(mesh.edges(e, 1), 0) - mesh.vertices(mesh.edges(e, 0), 0);
     ++inner;
-    if (std::abs(run) > 1e-12)  // of coordinates that are rounded once
+    if (std::abs(run) > 1e-9)  // gmsh places the points of a vertical line to about 1e-12
       leader[last(one)] = last(two);
     else
       ++vertical;

@@ -16,7 +16,9 @@ LayerComponents layer_components(const TriangleMesh& mesh) {
     while (leader[t] != t) t = leader[t] = leader[leader[t]];
     return t;
   };
-  const double vertical = 1e-12 * body_size(mesh);  // of rounded coordinates
+  // A generator places the points of a vertical line to about 1e-12.
+  // Vertices that are moved on purpose are moved farther.
+  const double vertical = 1e-9 * body_size(mesh);
   int edges = 0;
   double length = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {
