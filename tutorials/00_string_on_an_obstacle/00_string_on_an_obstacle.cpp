@@ -47,6 +47,13 @@
 // $≥$ is all that can be said. So one inequality holds an equation where nothing touches and a sign where something
 // does. Where one ends and the other begins is part of the answer.
 //
+// **There is one solution, and only one.** Let $u$ and $u'$ both solve the inequality. By
+// the formula above $J(u') - J(u)$ and $J(u) - J(u')$ are each at least
+// $½ a(u' - u, u' - u)$. Their sum is 0, so $a(u' - u, u' - u)$ is 0, too. The string is
+// held at its ends, hence $u' = u$. A solution exists because $J$ is continuous and grows
+// beyond all bounds in every direction, and because $K$ is closed. In infinitely many
+// dimensions this is the theorem of *Stampacchia*.
+//
 // **The same in a picture.** Let $w$ be the string without a floor: $L(v) = a(w, v)$ for all $v$. The inequality
 // becomes $a(u, v - u) ≥ a(w, v - u)$, or $a(w - u, v - u) ≤ 0$. Seen from $u$, the way to $w$ makes no acute angle
 // with a way to a $v$ in $K$. So $u$ is the *projection* of $w$ onto $K$: nearest there, with lengths $a(v, v)^{1/2}$.
