@@ -38,11 +38,12 @@
 // are bounded. The middle is bounded then, too, and it contains $ε_c^{-1} a_0(u^ε, u^ε)$. So the stiff form of the solutions,
 // without its factor, is at most $C ε_c$: it tends to 0.
 //
-// **2. A weak limit solves (2).** A bounded family has a sequence that converges weakly, as chapter 05's sawteeth do;
-// call the limit $w^0$. Three things are known of weak limits. A closed convex set keeps them, so $w^0 ∈ K$: such a set
-// is where some inequalities $(v, z) ≥ c$ hold, and each of them is kept. A product with a fixed function converges. And
-// a form that is never negative can lose by a weak limit, but not gain. The sawteeth lose all energy of their slopes. To
-// see it for $a_0$, write
+// **2. A weak limit solves (2).** A bounded family has a sequence that converges weakly, as
+// chapter 05's sawteeth do; call the limit $w^0$. Three things are known of weak limits. A
+// closed convex set keeps them, so $w^0 ∈ K$: such a set is an intersection of half spaces
+// $(v, z) ≥ c$, and a weak limit stays in each of them (*Mazur*'s theorem). A product with
+// a fixed function converges. And a form that is never negative can lose by a weak limit,
+// but not gain. The sawteeth lose all energy of their slopes. To see it for $a_0$, write
 //
 // $$ 0 ≤ a_0(u^ε - w^0, u^ε - w^0) = a_0(u^ε, u^ε) - 2 a_0(u^ε, w^0) + a_0(w^0, w^0). $$
 //
@@ -51,10 +52,11 @@
 //
 // $$ a_1(u^ε, w) - a_1(u^ε, u^ε) ≥ L(w - u^ε). $$
 //
-// All terms but one converge. That one is $a_1(u^ε, u^ε)$. It differs from $a_1(u^ε, u^ε) + a_0(u^ε, u^ε)$ by the stiff
-// form, which tends to 0. This sum is never negative, so it can only lose in the limit. It stands on the left with a
-// minus sign, so the inequality stays true. It is (2), which has one solution. So $w^0 = u^0$, whatever sequence was
-// chosen, and the whole family tends to it weakly.
+// All terms but one converge. That one is $a_1(u^ε, u^ε)$. It differs from
+// $a_1(u^ε, u^ε) + a_0(u^ε, u^ε)$ by the stiff form, which tends to 0. This sum is never
+// negative, so it can only lose in the limit. It stands on the left with a minus sign, so
+// the inequality stays true. It is (2), which has one solution (chapter 00). So
+// $w^0 = u^0$, whatever sequence was chosen, and the whole family tends to it weakly.
 //
 // **3. It converges strongly.** Put $v = u^0$ into (1), and use that $a_0(u^0, ·) = 0$:
 //
@@ -64,15 +66,18 @@
 // convergence in the norm. Its stiff part is $ε^{-2} a_y^-(u^ε, u^ε) = ε^2 ‖p‖^2$, with the norm of $L^2$ in the layer: this
 // tends to 0, too.
 //
-// **How fast?** The theorem does not say. Chapter 04's symbol does: a layer of thickness ε answers to the wave $\sin kπx$
-// on $Γ_C$ like the limit but for a share $∼ (ε k)^2$, and from $k ∼ 1/ε$ on quite differently. How much of $u^0$ is in such
-// waves? Where contact ends its pressure jumps, and the waves of a jump fall like $k^{-1}$. The pressure is about $s_k$ times
-// the displacement, and $s_k$ grows like $k^2$. So the waves of the displacement on $Γ_C$ fall like $k^{-3}$. In the square
-// of the norm wave $k$ counts $k^2 (k^{-3})^2 = k^{-4}$. Together
+// **How fast?** The theorem does not say. Chapter 04's symbol does. What follows is an
+// estimate and not a proof: it takes the same contact set for both solutions. A layer of
+// thickness ε answers to the wave $\sin kπx$ on $Γ_C$ like the limit but for a share
+// $∼ (ε k)^2$, and from $k ∼ 1/ε$ on quite differently. How much of $u^0$ is in such waves?
+// Where contact ends its pressure jumps, and the waves of a jump fall like $k^{-1}$. The
+// pressure is about $s_k$ times the displacement, and $s_k$ grows like $k^2$. So the waves
+// of the displacement on $Γ_C$ fall like $k^{-3}$. In the square of the norm wave $k$
+// counts $k^2 (k^{-3})^2 = k^{-4}$. Together
 //
 // $$ ‖u^ε - u^0‖^2 ∼ ∑_k k^{-4} \min(1, (ε k)^4) ∼ ε^3: $$
 //
-// up to $k = 1/ε$ each of $1/ε$ waves adds $ε^4$. The order is 3/2.
+// up to $k = 1/ε$ each of $1/ε$ waves adds $ε^4$. So the order should be 3/2.
 
 #include "antilock/exact/exact_norms.hpp"
 #include "course/course.hpp"
