@@ -8,8 +8,9 @@
 // Needs: [07](../07_kernel/07_kernel.cpp) for $G_h$ and its dimension, [12](../12_contact_sets/12_contact_sets.cpp) for $K_h ⊄ K$,
 // [06](../06_p1_unstructured/06_p1_unstructured.cpp) for the wall.
 //
-// **The picture.** Error against unknowns for the degrees 1 to 4 at ε = 1e-4, on three families of meshes. *On the
-// structured mesh every degree converges at once. On the two others each degree waits for its own mesh width.*
+// **The picture.** Error against unknowns for the degrees 1 to 4 at ε = 1e-4, on three
+// families of meshes, from 1/h = 4 (Delaunay: 8) to 32. *On the structured mesh every degree
+// converges at once. On the two others each degree waits for its own mesh width.*
 //
 // :figure: degree
 //
@@ -19,19 +20,24 @@
 //
 // ## Which functions cost nothing
 //
-// The introduction of the paper names "p and hp methods [2]" among the cures (hp: [chapter 31](../31_hp/31_hp.cpp)). Take
-// continuous functions that are polynomials of degree $p$ on each triangle, with unknowns at the points that cut each
-// edge into $p$ equal parts (and inside): the element $P_p$. If $∂_y v = 0$ then $v$ is a polynomial of degree $p$ in
-// $x$ on each triangle. Two neighbours that share an interval of $x$ share the polynomial, unless the edge between them
-// is vertical. On an unstructured mesh some edges are, but every triangle is connected with every other one through edges
-// that are not ([chapter 02](../02_meshes/02_meshes.cpp)). So all have the same polynomial, and it is 0 at $x = 0$ and
-// $x = 1$: $x (1 - x)$ times a polynomial of degree $p - 2$. So
+// The introduction of the paper names "p and hp methods [2]" among the cures (hp: [chapter
+// 31](../31_hp/31_hp.cpp)). Take continuous functions that are polynomials of degree $p$ on
+// each triangle, with unknowns at the points that cut each edge into $p$ equal parts (and
+// inside): the element $P_p$. If $∂_y v = 0$ then $v$ is a polynomial of degree $p$ in $x$
+// on each triangle. Two neighbours that share an interval of $x$ share the polynomial,
+// unless the edge between them is vertical. On an unstructured mesh some edges are. But
+// unless a line of them goes all the way from $Σ$ to $Γ_C$, every triangle is connected
+// with every other one through edges that are not ([chapter
+// 02](../02_meshes/02_meshes.cpp)). Then all have the same polynomial, and it is 0 at
+// $x = 0$ and $x = 1$: $x (1 - x)$ times a polynomial of degree $p - 2$. So
 //
 // $$ \dim G_h = p - 1 \text{ on the layer, however fine the mesh;} $$
 //
-// P1 has none, P2 has one. $K_0$ holds infinitely many functions of $x$, and a kernel that does not grow under refinement
-// cannot approach it (chapter 07). So every degree locks in the limit ε = 0. On the structured mesh of $n$ columns $v$ is any continuous function of $x$ of degree $p$ per
-// column: $n p - 1$.
+// P1 has none, P2 has one. $K_0$ holds infinitely many functions of $x$, and a kernel that
+// does not grow under refinement cannot approach it (chapter 07). So every degree locks in
+// the limit ε = 0. Where $c - 1$ vertical lines part the layer into $c$ columns, $v$ is any
+// continuous function of $x$ of degree $p$ per column: $c p - 1$. On the structured mesh
+// $c = 1/h$.
 //
 // ## What all other functions cost
 //
@@ -54,16 +60,18 @@
 // on fine meshes no degree has a higher order.
 
 #include "antilock/analysis/kernel.hpp"
+#include "antilock/analysis/layer_components.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
 using namespace antilock;
 using std::numbers::pi, tutorial::Exact;
 
-// `cost`: $κ$ for $w = \sin 2πx$. `kept`: the largest $u_h$ on $Γ_C$ over that of $u$; `law`: $1/(1 + x)$. `kernel`:
-// $\dim G_h$ on the layer, counted on the coarsest mesh (a rank has no meaning where $B$ nearly misses many functions).
-const std::vector<std::string> columns{"element", "degree", "mesh", "cells", "h",  "unknowns",
-                                       "kernel",  "cost",   "h1",   "kept",  "law"};
+// `columns`: $c$. `kernel`: $\dim G_h$ on the layer, counted on the coarsest mesh (a rank
+// has no meaning where $B$ nearly misses many functions). `cost`: $κ$ for $w = \sin 2πx$.
+// `kept`: the largest $u_h$ on $Γ_C$ over that of $u$; `law`: $1/(1 + x)$.
+const std::vector<std::string> names{"element", "degree", "mesh", "cells", "h",    "unknowns",
+                                     "columns", "kernel", "cost", "h1",    "kept", "law"};
 
 Table solve(const Method& method, int cells, double epsilon, const Field& load, const Exact& exact) {
   // ### Mesh
@@ -80,45 +88,58 @@ Table solve(const Method& method, int cells, double epsilon, const Field& load, 
   const Solution solution = active_set(problem, factor);
   const double a = 2 * pi, ridge = 0.5 * (a / std::tanh(a) + a * a);  // E, chapter 06
   const double squared = slope.dot(problem.m.cwiseProduct(slope));
-  Table row(columns);
-  row.add(
-      {method.element->name(), method.element->degree(), method.family.name, cells, 1.0 / cells, space.free_count(),
-       cells <= 4 && method.family.name != "delaunay" ? TableEntry(layer_kernel_dimension(problem)) : TableEntry(""),
-       std::sqrt(squared), exact.errors(space, solution).h1,
-       solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact(),
-       1 / (1 + squared / (epsilon * epsilon * ridge))});
+  // gmsh's lines are vertical up to 1e-12, and the rank of a high degree sees the difference.
+  const bool counted = cells <= 4 && method.family.name != "delaunay";
+  Table row(names);
+  row.add({method.element->name(), method.element->degree(), method.family.name, cells, 1.0 / cells, space.free_count(),
+           layer_components(space.mesh()).count, counted ? TableEntry(layer_kernel_dimension(problem)) : TableEntry(""),
+           std::sqrt(squared), exact.errors(space, solution).h1,
+           solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact(),
+           1 / (1 + squared / (epsilon * epsilon * ridge))});
   return row;
 }
 
+void judge_kernels(const Table& coarsest, tutorial::Report& report);
 void judge(const Table& results, tutorial::Report& report);
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
   const Exact exact(tutorial::paper_scene(options.epsilon));
-  Table results(columns);
+  Table results(names), coarsest(names);
   for (const Method& method :
        methods({&p1(), &p2(), &p3(), &p4()}, {structured(), unstructured(), mesh_family("delaunay")}))
-    for (int n = 4; n <= options.cells; n *= 2) results.add(solve(method, n, options.epsilon, paper_load, exact));
+    for (int n = 4; n <= options.cells; n *= 2) {
+      const Table row = solve(method, n, options.epsilon, paper_load, exact);
+      if (n == 4) coarsest.add(row);
+      // gmsh's Delaunay mesh at 1/h = 4 has a vertical line by chance, and the others have none
+      if (row.number("columns") == 1 || method.family.name == "structured") results.add(row);
+    }
   // ### Output
-  results.print("degrees 1 to 4; cost: |d/dy I_h w|", 3);
+  results.select({"element", "mesh", "cells", "h", "unknowns", "kernel", "cost", "h1", "kept", "law"})
+      .print("degrees 1 to 4; cost: |d/dy I_h w|", 3);
+  coarsest.select({"element", "mesh", "columns", "kernel", "kept", "law"}).print("1/h = 4: the kernel on the layer", 3);
   tutorial::write_degrees(options.out, results);
+  judge_kernels(coarsest, report);
   judge(results, report);
 }
 
-void judge(const Table& results, tutorial::Report& report) {
-  for (const Table& row : results.filter("cells", 4).rows()) {
+void judge_kernels(const Table& coarsest, tutorial::Report& report) {
+  for (const Table& row : coarsest.rows()) {
     if (row.entry("mesh") == "delaunay") continue;
-    const double p = row.number("degree"), expected = row.entry("mesh") == "structured" ? 4 * p - 1 : p - 1;
-    report.claim(row.number("kernel") == expected, "{} {}, 1/h = 4: dim G_h = {} ({}, proved)",
-                 row.entry("element").text(), row.entry("mesh").text(), row.number("kernel"), expected);
+    const double expected = row.number("columns") * row.number("degree") - 1;
+    report.claim(row.number("kernel") == expected, "{} {}, 1/h = 4, columns: {}, dim G_h = {} ({}, proved)",
+                 row.entry("element").text(), row.entry("mesh").text(), row.number("columns"), row.number("kernel"),
+                 expected);
   }
+}
+
+void judge(const Table& results, tutorial::Report& report) {
   report.claim(results.filter("mesh", "structured").max("cost") < 1e-9,
                "structured: d/dy I_h w = 0 for every degree, up to round-off (proved)");
   for (const TableEntry& element : results.unique("element")) {
     const Table all = results.filter("element", element);
     const double p = all.first("degree");
     // h^p at least is proved. The half more is that of the one generator.
-    report.claim_order(all.filter("mesh", "delaunay"), "cost", "h", p - 0.2, p + 0.25,
-                       element.text() + " delaunay: cost (observed)");
+    report.claim_orders(all.filter("mesh", "delaunay"), "cost", p - 0.25, p + 0.25, element.text() + " delaunay: cost");
     report.claim_order(all.filter("mesh", "unstructured"), "cost", "h", p + 0.3, p + 0.6,
                        element.text() + " unstructured: cost (observed)");
     // From 1/8 on, where the interpolant is near the ridge. A twentieth: what the body's error may take.
@@ -129,9 +150,8 @@ void judge(const Table& results, tutorial::Report& report) {
       least = std::min(least, kept / law), most = std::max(most, kept / law);
       if (law < 1e-3) locked = std::max(locked, kept);
     }
-    report.claim(least > 0.95,
-                 "{}: of the ridge at least {:.2f} times 1/(1 + x) is kept (observed; of the energy: proved)",
-                 element.text(), least);
+    report.claim(least > 0.95, "{}: of the ridge at least {:.2f} times 1/(1 + x) is kept (observed)", element.text(),
+                 least);
     if (p == 1) report.claim(most < 2.5, "P1: and at most {:.2f} times (observed)", most);
     if (locked > 0)
       report.claim(locked < 0.01, "{} locks: where 1/(1 + x) < 1e-3 it keeps {:.2g} or less (observed)", element.text(),
@@ -143,12 +163,23 @@ void judge(const Table& results, tutorial::Report& report) {
 //
 // :output: degrees 1 to 4
 //
-// (a) None. (b) Two, and not one more on the finer mesh: $\dim G_h$ at 1/h = 4 is 0, 1, 2, 3 for the degrees 1 to 4,
-// and 3, 7, 11, 15 on the structured mesh. At ε = 1e-4 and 1/h = 32 the degrees 1 to 4 keep 0, 66, 99.9 and 100 % of
-// the ridge on the unstructured mesh, and 0, 35, 99.9 and 100 % on the Delaunay mesh. The cost says how much is kept at
-// least. P1 keeps about twice that, because of contact. P2 and P3 keep up to 19 times as much of the little that is
-// left: among their functions there are better ones than the interpolant. Where the ridge is kept the $H^1$ error can
-// still be large: the gradient sees the wrong slope first.
+// (a) None. (b) Two, and not one more on the finer mesh: $\dim G_h$ at 1/h = 4 is 0, 1, 2,
+// 3 for the degrees 1 to 4, and 3, 7, 11, 15 on the structured mesh. At ε = 1e-4 and 1/h =
+// 32 the degrees 1 to 4 keep 0, 66, 99.9 and 100 % of the ridge on the unstructured mesh,
+// and 0, 35, 99.9 and 100 % on the Delaunay mesh. The cost says how much is kept at least.
+// P1 keeps up to 2.23 times that: 1.46 times because of contact, the rest because $u_h$
+// leans on the better triangles (chapter 06). P2 and P3 keep up to 19 times as much of the
+// little that is left: among their functions there are better ones than the interpolant.
+// Where the ridge is kept the $H^1$ error can still be large: the gradient sees the wrong
+// slope first.
+//
+// **One vertical line is enough.** gmsh's Delaunay mesh at 1/h = 4 has, by chance, a
+// vertical line at $x = 1/2$. It has two columns, so $\dim G_h$ is 1, 3, 5, 7. P2 keeps
+// 0.943 of the ridge there, where $1/(1 + x)$ is 1.14e-05. P1 gains nothing, because its
+// one function, the hat at $x = 1/2$, is even about $x = 1/2$ and the load is odd. This
+// mesh says nothing about the others of its family, so the picture begins at 1/8 there.
+// :output: 1/h = 4
+//
 // :live: degree
 //
 // ## Exercises
@@ -161,5 +192,5 @@ void judge(const Table& results, tutorial::Report& report) {
 int main(int argc, char** argv) {
   return tutorial::run(
       argc, argv, "16_degree", "degrees 1 to 4 on both meshes: less locking, not none",
-      {.epsilon = 1e-4, .least_epsilon = 1e-4, .least_cells = 8, .most_cells = 64, .exercises = exercises}, study);
+      {.epsilon = 1e-4, .least_epsilon = 1e-4, .least_cells = 16, .most_cells = 64, .exercises = exercises}, study);
 }

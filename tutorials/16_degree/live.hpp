@@ -5,7 +5,7 @@ std::string family = "unstructured";
 
 void degrees(const tutorial::Options& options, tutorial::Report&) {
   const Exact exact(tutorial::paper_scene(options.epsilon), 12);
-  Table rows(columns);
+  Table rows(names);
   for (const Method& method : methods({&p1(), &p2(), &p3(), &p4()}, {mesh_family(family)}))
     rows.add(solve(method, options.cells, options.epsilon, paper_load, exact));
   rows.select({"element", "kept", "law"}).write(options.out / "points.csv");

@@ -5,7 +5,8 @@
 using std::numbers::pi;
 
 const std::vector<tutorial::Exercise> exercises{
-    {"epsilon = 0, the unstructured mesh of 1/h = 8, the load sin(pi x): does P2 look free of locking? And on the ball?",
+    {"epsilon = 0, the unstructured mesh of 1/h = 8, the load sin(pi x): does P2 look free of locking? And on the "
+     "ball?",
      "under this load yes: x (1 - x) is near its ridge, and its error is a fifth of that of P1 in columns. On the ball "
      "no: it contains sin(2 pi x), of whose ridge P2 keeps nothing",
      [](const tutorial::Options&, tutorial::Report& report) {
