@@ -47,12 +47,25 @@
 //
 // $$ ‖\min(v_h, 0)‖_{L^2(Γ_C)} ≤ c_h ‖v_h‖_h,   c_h ∼ h^{1/2}. $$
 //
-// So in a bounded sequence the part below 0 vanishes. And where $v_h → v$ weakly, the values on $Γ_C$ converge to those
-// of $v$ (the trace keeps weak limits). So $v ≥ 0$ on $Γ_C$: $v$ is in $K$. The $c_h$ of the run comes from an
-// eigenvalue: the largest ratio of the two sides, with the distance to the mean on the left. (For P2 it is the distance
-// to the two chords that join its three points on an edge.) The ratio is taken over all of $V_h$, so it is an upper
-// bound. The function of the picture shows that functions of $K_h$ come near this bound: it is the worst of those that
-// are 0 at all midpoints. Half of it lies below 0, so the left side is $2^{-1/2}$ times the distance to the mean.
+// So in a bounded sequence the part below 0 vanishes. And where $v_h → v$ weakly, the
+// values on $Γ_C$ converge weakly to those of $v$. For functions without jumps the trace
+// keeps weak limits. For CR take a smooth vector field $q$ that is 0 near $Γ_D$, with
+// $q·n = g$ on $Γ_C$, and integrate by parts on each triangle:
+//
+// $$ ∫ ∇v_h·q + ∫ v_h \operatorname{div} q = ∫_{Γ_C} v_h g + ∑_E ∫_E [v_h] q·n. $$
+//
+// The sum is over the inner edges. A jump $[v_h]$ of CR has the mean 0 along its edge, so
+// only the change of $q$ along the edge counts, and the sum is at most $C h ‖v_h‖_h$. In
+// the limit the left side is that of $v$, whose gradient is the weak limit of the broken
+// ones (the same formula with a $q$ that is 0 on the whole boundary says so; chapter 14).
+// So $∫_{Γ_C} v_h g → ∫_{Γ_C} v g$. For $g ≥ 0$ this is not negative, because what lies
+// below 0 vanishes. So $v ≥ 0$ on $Γ_C$: $v$ is in $K$. The $c_h$ of the run comes from an
+// eigenvalue: the largest ratio of the two sides, with the distance to the mean on the
+// left. (For P2 it is the distance to the two chords that join its three points on an
+// edge.) The ratio is taken over all of $V_h$, so it is an upper bound. The function of the
+// picture shows that functions of $K_h$ come near this bound: it is the worst of those that
+// are 0 at all midpoints. Half of it lies below 0, so the left side is $2^{-1/2}$ times the
+// distance to the mean.
 //
 // **(9) for $K_0$: a slope that hides in jumps.** Let functions $v_h$ of $K_{0h}$ tend weakly to $v$. On each triangle of
 // the layer $∂_y v_h = 0$. Is $∂_y v = 0$, too? Without jumps it is. With jumps it need not be: a staircase is level on
@@ -141,7 +154,8 @@ void judge(const Method& method, const Table& own, double lost, tutorial::Report
   if (method.element->name() == "P1")  // 1e-15: the values of a P1 function at its vertices
     report.claim(own.max("dip") <= 1e-15, "{}, (9) for K: nothing lies below 0 (proved)", name);
   else
-    report.claim_order(own, "c_h", "h", 0.45, 0.55, name + ", (9) for K: c_h ~ h^(1/2) (proved)");
+    report.claim_order(own, "c_h", "h", 0.45, 0.55,
+                       name + ", (9) for K: c_h at most C h^(1/2) (proved), its order (observed)");
   if (!jumps)  // quadrature of the load: its error, not that of the method; 6e-12 for P2
     report.claim(own.last("k_h") < 1e-10, "{}, (9) for K_0: no hidden slope, {:.0e} (proved)", name, own.last("k_h"));
   else
