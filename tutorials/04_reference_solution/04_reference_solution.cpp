@@ -135,8 +135,9 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   tutorial::modes({1.0, 0.1}, symbol).write(options.out / "modes.csv");
   symbols.print("the symbol, by formula and by P1 on a mesh");
 
-  // One row of the matrix, with a sine put in, gives P1's stiffness: a (1 + (a h)^2 / 6) for a block, a^2 exactly for a
-  // string. The rigid layer is a string under a block. So of its s_k = T + a^2 only T, the share of the block, is off.
+  // P1's stiffness is derived below ("What came out"): a (1 + (a h)^2 / 6) for a block, a^2 exactly
+  // for a string. The rigid layer is a string under a block. So of its s_k = T + a^2 only T, the
+  // share of the block, is off.
   const Table block = symbols.filter("epsilon", 1.0), rigid = symbols.filter("epsilon", 1e-6);
   report.claim_within(block.max("off by (a h)^2 times") * 6, 0.98, 1.02,
                       "epsilon = 1: off by (a h)^2 / 6 (proved), times");
@@ -173,6 +174,19 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
 // unknowns. So from now on every error is measured against the sine series and not against Figure 4. In the truth the
 // contact zone begins at $x = 0.702$.
 // :output: error against the truth
+//
+// **Why P1 is off by $(ah)^2/6$.** On the structured mesh the row of an inner vertex is
+// four times its value less its four neighbours. Put in $u = ρ^j \sin ax$ on the $j$-th
+// line above $Γ_C$, with $ρ = e^{-θ}$. The row is 0 if $\cosh θ = 2 - \cos ah$, that is
+// $\sinh(θ/2) = \sin(ah/2)$. (The block is deep: what its far side sends back is as small
+// as $e^{-4a}$.) The row of a vertex of $Γ_C$ leaves $2 - \cos ah - ρ = \sinh θ$, and the
+// pressure $\sin ax$ has the load $(2 - 2 \cos ah)/(a^2 h) = 4 \sin^2(ah/2)/(a^2 h)$ there.
+// So the stiffness of the mesh is
+//
+// $$ \frac{a^2 h \sinh θ}{4 \sin^2(ah/2)} = \frac{a^2 h}{2} \coth \frac{θ}{2} = a (1 + \frac{(ah)^2}{6} + ...). $$
+//
+// For a string the row and the load are both $2 - 2 \cos ah$ over $h$ and over $a^2 h$: the
+// stiffness is $a^2$, exactly.
 //
 // ## Exercises
 //
