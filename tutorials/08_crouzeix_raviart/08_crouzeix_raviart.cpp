@@ -152,7 +152,7 @@ void nonconforming(const tutorial::Options& options, tutorial::Report& report) {
 //
 // 1. Interpolate $u^0$ with P1, values at the vertices of the same meshes. Is $B I_h u^0 = 0$?
 // 2. On the structured mesh of $1/h = 32$ the largest error at an unknown is 1.03e-3, at
-// $ε = 10^{-6}$. Predict it on 64. Then on 64 at $ε = 0$, and at $10^{-2}$.
+//    $ε = 10^{-6}$. Predict it on 64. Then on 64 at $ε = 0$, and at $10^{-2}$.
 // 3. On paper: why is P1's interpolation no substitute in the proof? Which of the three means over edges does it keep?
 
 #include "answers.hpp"

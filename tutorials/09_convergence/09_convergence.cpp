@@ -25,20 +25,25 @@
 // of the ridge is lost, $x = (5.84 k/ε)^2$, and the bending length $k$ of the mesh falls with $h$. For each $ε > 0$ the
 // loss tends to 0; but at every $h$ there is an $ε$ at which nearly all is lost.
 //
-// **The orders.** Interpolation has order 2 in the largest error and order 1 in the gradient. The end of contact may take
-// some of the 2. For $ε > 0$ the solution $u^ε$ is there like $r^{3/2}$, $r$ the distance from it: its second derivative
-// is not bounded. It is like this up to a distance of about $ε$; farther away $u^ε$ looks like $u^0$. For $ε = 0$ the
-// second derivative jumps, as for chapter 00's string. On the one element where it jumps a piecewise affine function errs
-// by a multiple of $h^2$ still, but the multiple depends on where in the element the jump lies. And CR asks $v ≥ 0$ at
-// midpoints alone, so its contact may end half an element too early or too late. Both make the error rough in $h$: the
-// slope from one mesh to the next is then anywhere between 3/2 and 2 and more. (For $h ≪ ε$ the power $r^{3/2}$ must
-// bring it down to 3/2 at last; for $ε ≪ h$ no such law is behind it.)
+// **The orders.** Interpolation has order 2 in the largest error and order 1 in the
+// gradient. The end of contact may take some of the 2. For $ε > 0$ the solution $u^ε$ is
+// there like $r^{3/2}$, $r$ the distance from it: its second derivative is not bounded. It
+// is like this up to a distance of about $ε$; farther away $u^ε$ looks like $u^0$. For
+// $ε = 0$ the second derivative jumps, as for chapter 00's string. On the one element where
+// it jumps a piecewise affine function errs by a multiple of $h^2$ still, but the multiple
+// depends on where in the element the jump lies. And CR asks $v ≥ 0$ at midpoints alone, so
+// its contact may end half an element too early or too late. Both make the error rough in
+// $h$: the slope from one mesh to the next is then anywhere between about 1.4 and more than
+// 2. (For $h ≪ ε$ the power $r^{3/2}$ must bring it down to 3/2 at last. For $ε ≪ h$ no
+// such law is behind it.)
 //
-// **P1 against CR.** Both gradients are constant per triangle. That of $I_h u$ for CR is the mean of $∇u$, the best
-// constant (chapter 08). So no function that is affine per triangle, P1 or CR, comes nearer to $∇u$. This is about
-// the interpolants. The solutions compare, too: without contact, the error of CR's gradient is at most a constant times
-// that of P1's, plus how much the load varies inside a triangle (Braess, Calcolo 46, 2009). In the values CR may lose:
-// it is exact for means over edges, and its error is largest at the corners, where it jumps.
+// **P1 against CR.** Both gradients are constant per triangle. That of $I_h u$ for CR is
+// the mean of $∇u$, the best constant (chapter 08). So no function that is affine per
+// triangle, P1 or CR, comes nearer to $∇u$. This is about the interpolants. The solutions
+// compare, too: without contact, the error of CR's gradient is at most a constant times
+// that of P1's, plus how much the load varies inside a triangle (Braess, Calcolo 46, 2009).
+// In the values CR may lose: its interpolant is exact for means over edges, and the error
+// of both is largest at the corners, where they jump.
 //
 // **Computed once.** $a_1$ and $a_0$ do not contain $ε$: a mesh is assembled once for five $ε$, and the small ones
 // share one factorisation, since $δ$ stands in the place of $ε^2$ (chapter 03). `SceneSweep` does that.
