@@ -36,32 +36,51 @@
 // - (i) *it holds:* $a_1 + a_{0h}$ is coercive on $V_h$, with one constant α for all $h$;
 // - (ii) *it leaves enough:* each $w ∈ K_0$ is the limit of some $w_h ∈ K_{0h}$;
 // - (iii) *it leaves nothing foreign:* weak limits of bounded $v_h ∈ K_h$ lie in $G$, if $a_{0h}(v_h, v_h) → 0$;
-// - (iv) *it is the right one at last:* if $w_h → w$ weakly and $v_h → v$, then $a_{0h}(w_h, v_h) → a_0(w, v)$, and
-// $a_{0h}(w_h, w_h)$ is at least $a_0(w, w)$ in the limit;
+// - (iv) *it is the right one at last:* if $w_h → w$ weakly and $v_h → v$, then
+// $a_{0h}(w_h, v_h) → a_0(w, v)$;
 // - with friction: $j_h(v_h) → j(v)$, and $j_h(w_h)$ is at least $j(w)$ in the limit.
+//
+// (From (iv) it follows that $a_{0h}(w_h, w_h)$ is at least $a_0(w, w)$ in the limit. For
+// $v_h → w$ it is at least $2 a_{0h}(w_h, v_h) - a_{0h}(v_h, v_h)$.)
 //
 // *Proof.* Were it false, the error would stay away from 0 for some sequence of ever finer meshes and of parameters, which
 // converge to some $ε_* ≥ 0$. The exact solutions converge to the one at this limit (Theorem 1). So it is enough that the
 // discrete ones do so, too. Let first $ε_* = 0$. The steps are those of Theorem 1 in [chapter 10](../10_limits/10_limits.cpp).
 //
-// 1. *Bounded.* Take a $w$ of $K_0$, and for test functions the $w_h$ of (ii). The stiff form of $u_h$ with $w_h$ is 0,
-// because that of $w_h$ with itself is (Cauchy and Schwarz). So the inequality becomes
+// **Step 1: bounded.** Take a $w$ of $K_0$, and for test functions the $w_h$ of (ii). The
+// stiff form of $u_h$ with $w_h$ is 0, because that of $w_h$ with itself is (Cauchy and
+// Schwarz). So the inequality becomes
 //
 // $$ a_1(u_h, u_h) + ε_c^{-1} a_{0h}(u_h, u_h) + j_h(u_h) ≤ a_1(u_h, w_h) - L(w_h - u_h) + j_h(w_h). $$
 //
 // As the parameter is at most 1, the left side is at least $α ‖u_h‖^2$ by (i). The right side grows like $‖u_h‖$ only. So
 // the $u_h$ are bounded, and their stiff form is at most $C ε_c$: it tends to 0.
-// 2. *Where the limits lie.* A weak limit lies in $K$ by (9), and in $G$ by (iii). So it lies in $K_0$.
-// 3. *What the limits solve.* Drop the stiff term on the left, which is not negative, and go to the limit. The two other
-// terms can only fall there ($a_1$ is a square, $j_h$ is asked to): the limit solves (2). That has one solution, $u^0$.
-// 4. *Strong.* Take $w = u^0$, and bring the left side of step 1 to the difference $d = u_h - w_h$:
+//
+// **Step 2: where the limits lie.** A weak limit lies in $K$ by (9), and in $G$ by (iii).
+// So it lies in $K_0$.
+//
+// **Step 3: which problem the limits solve.** Drop the stiff term on the left, which is not
+// negative, and go to the limit. The two other terms can only fall there. For $j_h$ this is
+// asked. For $a_1$ let $w$ be the weak limit, $w_h → w$ as in (ii), and $d = u_h - w_h$,
+// which tends to 0 weakly. By (i) $a_1(d, d) + a_{0h}(d, d) ≥ 0$, and the second term is
+// the stiff form of $u_h$, which tends to 0. So in the limit $a_1(d, d)$ is not negative,
+// and
+//
+// $$ a_1(u_h, u_h) = a_1(d, d) + 2 a_1(w_h, d) + a_1(w_h, w_h) $$
+//
+// is at least $a_1(w, w)$. Hence the limit solves (2). That has one solution, $u^0$.
+//
+// **Step 4: strong.** Take $w = u^0$, and bring the left side of step 1 to the difference
+// $d = u_h - w_h$:
 //
 // $$ a_1(d, d) + ε_c^{-1} a_{0h}(d, d) ≤ L(d) - a_1(w_h, d) + j_h(w_h) - j_h(u_h). $$
 //
 // The right side tends to 0 or below, because $d$ tends to 0 weakly. By (i) it tends to 0 strongly.
 //
-// If $ε_* > 0$, do the same with a $w$ of $K$ and $w_h$ of $K_h$. Then the stiff terms do not vanish. By (iv) they tend to
-// those with $a_0$, so the limit solves (1) at $ε_*$. ∎
+// If $ε_* > 0$, do the same with a $w$ of $K$ and $w_h$ of $K_h$. Then the stiff terms do
+// not vanish. By (iv) $a_{0h}(w_h, d)$ tends to 0 and $a_{0h}(w_h, w_h)$ to $a_0(w, w)$. So
+// step 3 holds for $a_1 + ε_c^{-1} a_{0h}$ in the place of $a_1$, and the limit solves (1)
+// at $ε_*$. ∎
 //
 // **(i) against (ii).** Let the groups shrink with $h$. Then (iii) and (iv) always hold: $(B v_h, q)$ differs from $(P_h
 // B v_h, q)$ by $(B v_h, q - P_h q)$, which vanishes, because means over small groups come near $q$. Larger groups leave
@@ -204,11 +223,14 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // for as many means as the layer has unknowns. (ii) fails, as for P1. It is only seen at smaller ε: at ε = 1e-3 their
 // error is 0.055 where P1 has 0.145; in the limit both have 0.148.
 //
-// (b) Even on the structured mesh, where P1 does not lock, zigzags across the layer are left whose means are 0. They cost
-// next to nothing: (i) fails, α falls like $h^2$, and the error grows from 0.46 to 1.38. With half of the stiff form kept
-// the zigzags cost something again. Of the four hypotheses three are in the table, and (iv) is proved above. The error
-// over all ε then falls like $h$. At 1/h = 32 it is 0.060 with 2336 unknowns; that of Crouzeix–Raviart is 0.055, with
-// 7136.
+// (b) Even on the structured mesh, where P1 does not lock, zigzags across the layer are
+// left whose means are 0. They cost next to nothing: (i) fails, α falls like $h^2$, and the
+// error grows from 0.46 to 1.38. Its locking ratio stays at 1.24, because the error at ε =
+// 1 grows as well: a bounded ratio means something only where a method converges (chapter
+// 13). With half of the stiff form kept the zigzags cost something again. Of the four
+// hypotheses three are in the table, and (iv) is proved above. The error over all ε then
+// falls like $h$. At 1/h = 32 it is 0.060 with 2336 unknowns; that of Crouzeix–Raviart is
+// 0.055, with 7136.
 //
 // ## Exercises
 //
