@@ -181,9 +181,25 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
 
 // ## What came out
 //
-// (a) $9n^2$ unknowns for $12n^2$ conditions. One point leaves nothing free, $\dim G_h = 0$: along an edge $∇w$ is the
-// same from both sides, and so is $θ$ along it at the two vertices opposite. At the rim θ is 0, and so it is from ring to
-// ring inwards. The beam has one condition per cell for two unknowns, the plate two per triangle for one and a half.
+// (a) $9n^2$ unknowns for $12n^2$ conditions. One point leaves nothing free,
+// $\dim G_h = 0$, from ring to ring inwards. No shear means that $∇w$ on a triangle is the
+// mean of θ at its three corners. Along an edge with the direction τ $∇w·τ$ is the same
+// from both sides, and the two corners at the ends of the edge are common to both means. So
+// $θ·τ$ is equal at the two corners opposite to the edge. Let $w$ and θ be 0 on a ring of
+// vertices (on the rim they are), and take a vertex $q$ of the next ring.
+//
+// - An edge of the outer ring that is opposite to $q$ in a triangle: $w = 0$ along it, so
+// $θ(q)·τ = 0$.
+// - An edge from a vertex $p$ of the outer ring to a neighbour $q'$ of $q$ in its ring,
+// opposite to $q$ in the triangle $q q' p$. On its other side lies a triangle with two
+// vertices of the outer ring. At its opposite corner θ is 0, so $θ(q)·τ = 0$ for this τ,
+// too.
+//
+// The two directions differ, because $q'$ is nearer to the centre than the line through the
+// outer edge. (A corner of the hexagon has two outer edges of the first kind, and the
+// centre has six.) So θ is 0 at $q$, the mean of θ on the triangles between the rings is 0,
+// and so is $w$ at $q$. The beam has one condition per cell for two unknowns, the plate two
+// per triangle for one and a half.
 //
 // (b) $27n^2$ unknowns less $12n^2$ conditions: $15n^2 - 9n + 2$ = 3698 functions for $n = 16$. Durán–Liberman leaves
 // three per vertex off the rim, 2163. At $t = 0$ P1 keeps nothing: its error is all of $w$, 1.08. It fails the patch
