@@ -29,16 +29,19 @@
 //
 // $$ ∫_{-1}^{0} λ (u_x + v_Y/t)^2 + 2μ u_x^2 + 2μ (v_Y/t)^2 + μ (u_Y/t + v_x)^2. $$
 //
-// For thin coatings both slopes across, $u_Y$ and $v_Y$, must be small, since they are divided by $t$. But the quotient
-// $v_Y/t$ need not be small: it has a best value for each $u_x$, because a sheet that is stretched becomes thinner.
-// Complete the square in this quotient. With $ν = λ/(λ + 2μ)$ what is integrated becomes
+// For thin coatings both slopes across, $u_Y$ and $v_Y$, must be small, since they are
+// divided by $t$. But the quotient $v_Y/t$ need not be small: it has a best value for each
+// $u_x$, because a sheet that is stretched becomes thinner. Complete the square in this
+// quotient. With $r = λ/(λ + 2μ)$, which is $ν/(1 - ν)$ for Poisson's ratio ν, the
+// integrand becomes
 //
-// $$ (λ + 2μ) (v_Y/t + ν u_x)^2 + E_m u_x^2 + μ (u_Y/t + v_x)^2,   E_m = λ + 2μ - \frac{λ^2}{λ + 2μ} = \frac{4μ(λ + μ)}{λ + 2μ}. $$
+// $$ (λ + 2μ) (v_Y/t + r u_x)^2 + E_m u_x^2 + μ (u_Y/t + v_x)^2,
+// E_m = λ + 2μ - \frac{λ^2}{λ + 2μ} = \frac{4μ(λ + μ)}{λ + 2μ}. $$
 //
 // This is the class (1) with the parameter $t^2$. The middle term joins $a_1$. The two squares are the stiff form:
 // times $t$, what is squared in them gives two rows of $B$ per point, with weights $λ + 2μ$ and $μ$ in $M$:
 //
-// $$ v_Y + ν t u_x,   u_Y + t v_x. $$
+// $$ v_Y + r t u_x,   u_Y + t v_x. $$
 //
 // In the limit both rows lose their second term. Then the displacement does not depend on $Y$, and the coating is a
 // *membrane* of modulus $E_m$ on the lower side of the block. Without the completed square $a_1$ would hold

@@ -71,5 +71,5 @@ const std::vector<tutorial::Exercise> exercises{
 //
 // **4.** A column is cut into pairs of triangles. The two triangles on the two sides of a vertical edge have that edge in
 // common, and $v_Y$ is the slope along it: the same in both. But they lie in different columns, and $u_x$ is the slope of
-// $u$ there: different on the two sides of a kink. No $v$ makes $v_Y = -ν u_x$ in both. What is left costs
-// $(λ + 2μ) ν^2$ times the squared deviation from the mean, of order $h^2$ for a smooth $u$.
+// $u$ there: different on the two sides of a kink. No $v$ makes $v_Y = -r u_x$ in both. What is left costs
+// $(λ + 2μ) r^2$ times the squared deviation from the mean, of order $h^2$ for a smooth $u$.

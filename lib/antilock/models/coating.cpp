@@ -32,7 +32,7 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
   problem.a1 = strain_form(space, body, membrane);
   FactoredForm rows =
       strain_form_factored(space,
-                           {{{lambda / (lambda + 2 * mu) * t, 0, 0, 1}, lambda + 2 * mu},  // v_Y + nu t u_x
+                           {{{lambda / (lambda + 2 * mu) * t, 0, 0, 1}, lambda + 2 * mu},  // v_Y + r t u_x
                             {{0, 1, t, 0}, mu}},                                           // u_Y + t v_x
                            Region::layer);
   if (rows.m.size() == 0) throw Error("coating: the mesh has no layer; accepted: a body with a layer below");

@@ -9,14 +9,14 @@ namespace antilock {
 /// introduction of [SR04] names (cited in problem/variational_inequality.hpp). The coating has the
 /// thickness t and the material `layer`, both of whose moduli are divided by t. Lengths are
 /// relative to the block, and all moduli are relative to the same modulus. The mesh of the coating
-/// is stretched to depth 1, Y = y / t. With the displacement (u, v) and nu = lambda / (lambda + 2
-/// mu) of the layer, the energy of the coating is half of
+/// is stretched to depth 1, Y = y / t. With the displacement (u, v) and r = lambda / (lambda + 2 mu)
+/// of the layer, which is nu / (1 - nu) for Poisson's ratio nu, the energy of the coating is half of
 ///
-///     int membrane u_x^2 + (lambda + 2 mu) (v_Y / t + nu u_x)^2 + mu (u_Y / t + v_x)^2,
+///     int membrane u_x^2 + (lambda + 2 mu) (v_Y / t + r u_x)^2 + mu (u_Y / t + v_x)^2,
 ///     membrane = 4 mu (lambda + mu) / (lambda + 2 mu),
 ///
 /// where the square in v_Y is completed. The first term belongs to a1. B has two rows per point,
-/// v_Y + nu t u_x with the weight lambda + 2 mu and u_Y + t v_x with the weight mu, and the class
+/// v_Y + r t u_x with the weight lambda + 2 mu and u_Y + t v_x with the weight mu, and the class
 /// parameter is t^2. At t = 0 both rows lose their second term, and the coating becomes a membrane
 /// of the right modulus, `membrane`. Without the completed square its modulus would be 2 mu, which
 /// is wrong.
