@@ -13,9 +13,11 @@
 // stiffer (drawn stretched to the depth 1). *P1 on arbitrary triangles holds the coating flat: it touches the punch at
 // its top alone, and the contact force is 73 % too large. With CR the coating follows the block.*
 //
-// **Predict.** The displacement has two components, $u$ along the coating and $v$ across it. (a) P1 locks, CR does not.
-// Which of the two has to be CR, or both? (b) The coating is stretched along $x$. In plane strain, with Lamé's pair
-// $λ, μ$, does it resist with the modulus $2μ$, with $λ + 2μ$, or with something between?
+// **Predict.** The displacement has two components, $u$ along the coating and $v$ across
+// it. (a) P1 locks, CR does not. Which of the two has to be CR for the right force, or
+// both? And for the right displacement? (b) The coating is stretched along $x$. In plane
+// strain, with Lamé's pair $λ, μ$, does it resist with the modulus $2μ$, with $λ + 2μ$, or
+// with something between?
 //
 // ## From a thin coating to the class
 //
@@ -82,7 +84,8 @@ using namespace antilock;
 double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the round punch below
 
 // ### Mesh
-// A `CoatedBlock` is one of six discretisations: triangles in columns or arbitrary ones, an element per component.
+// A `CoatedBlock` is one of six discretisations: triangles in columns or arbitrary ones, an
+// element per component. `locks` is about the force.
 //
 // ### Forms
 // `models/coating.cpp` is those two formulas: `strain_form` for the block and for $E_m u_x^2$, `strain_form_factored`
@@ -176,19 +179,28 @@ void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Rep
 //
 // :output: contact force, by t
 //
-// (a) For the force $v$ alone. With $u$ P1 and $v$ CR it is right to 1 % (though $u$ of the coating stays affine: on
-// arbitrary triangles only CR for both converges); with $u$ CR and $v$ P1 it is 73 % too large, like that of P1 for both.
-// P2 locks too: it has parabolas of $x$, and no more.
+// (a) For the force $v$ alone. With $u$ CR and $v$ P1 it is 73 % too large, like that of P1
+// for both. P2 locks too: it has parabolas of $x$, and no more.
+//
+// **A right force, and yet locked.** With $u$ P1 and $v$ CR the force is right to 1 %. But
+// on arbitrary triangles $u$ on the coating can only be $a + b x$ in the limit. It is wrong
+// by half of its largest value, and finer meshes do not mend it: P1 / CR locks in $u$. The
+// force does not show it, because the stretching of the coating has hardly any part in it.
+// So whoever looks at one output may take a method that locks for one that does not. On
+// arbitrary triangles only CR for both is free of locking.
 //
 // :figure: coating_force
 //
-// The diagnosis says so before anything is solved, because it asks for what the *bounded* unknowns can do. The dimension
-// of the kernel would not: for CR / P1 it grows fast with the mesh, in the coating by motions of $u$.
+// The diagnosis shows locking of the force before anything is solved, because it asks for
+// the motions of the *bounded* unknowns. So it does not see P1 / CR lock in $u$, which has
+// no bounds. The dimension of the kernel would not help: for CR / P1 it grows fast with the
+// mesh, in the coating by motions of $u$.
 //
 // (b) Between: $E_m = 1.10$ lies between $2μ = 0.77$ and $λ + 2μ = 1.35$. In plane strain the sheet cannot become narrower out
 // of the plane, but it can become thinner.
 //
-// The supremum over $t$ of the force's error shows locking in one number per mesh: it falls, or it stays.
+// The supremum over $t$ of an error shows in one number per mesh whether this output locks:
+// it falls, or it stays. It speaks of one functional, here of the force, and of no other.
 //
 // :output: corrections, by t
 //

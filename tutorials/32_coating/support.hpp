@@ -18,7 +18,7 @@ struct CoatedBlock {
   std::string name, file;
   bool columns;
   const Element &in_x, &in_y;
-  bool locks;
+  bool locks;  ///< in the force
   TriangleMesh mesh(int cells) const {
     return with_free_sides(columns ? structured_mesh(cells) : unstructured_mesh(cells));
   }
