@@ -209,6 +209,7 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 // as many: the last verdict has $1/(ρ h)$ of them, and $ρ$ is in proportion to $h$. Contact starts at 0.7151 and not at
 // the middle, where the load turns down, since the lifted half pulls its neighbour up. Where the string lies flat it does
 // not bend, so the pressure is $-f$: from the first touch on, the floor carries the whole load.
+// :number: 0.7151 = line "the node next to {}"
 //
 // ## Exercises
 //

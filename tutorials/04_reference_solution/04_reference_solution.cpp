@@ -183,7 +183,8 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
 // pressure $\sin ax$ has the load $(2 - 2 \cos ah)/(a^2 h) = 4 \sin^2(ah/2)/(a^2 h)$ there.
 // So the stiffness of the mesh is
 //
-// $$ \frac{a^2 h \sinh θ}{4 \sin^2(ah/2)} = \frac{a^2 h}{2} \coth \frac{θ}{2} = a (1 + \frac{(ah)^2}{6} + ...). $$
+// $$ \frac{a^2 h \sinh θ}{4 \sin^2(ah/2)} = \frac{a^2 h}{2} \coth \frac{θ}{2} =
+// a (1 + \frac{(ah)^2}{6} + ...). $$
 //
 // For a string the row and the load are both $2 - 2 \cos ah$ over $h$ and over $a^2 h$: the
 // stiffness is $a^2$, exactly.

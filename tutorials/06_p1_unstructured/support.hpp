@@ -24,7 +24,7 @@ inline double rise_over_obstacle(const std::function<double(double)>& stiffness)
   }
   const Eigen::MatrixXd form = h * sines.transpose() * symbol.asDiagonal() * sines;
   VariationalInequality problem;
-  problem.a1 = Eigen::MatrixXd(form + form.transpose()).sparseView();  // symmetric to the last digit
+  problem.a1 = Eigen::MatrixXd(form + form.transpose()).sparseView();  // exactly symmetric
   problem.b.resize(0, n);
   problem.load = sines.row(1).transpose();
   std::vector<int> everywhere(n);

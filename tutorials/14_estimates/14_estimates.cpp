@@ -205,6 +205,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // last three meshes. The others do with one constant, 1.3, although the proof has $M/α ∼ ε^{-2}$ in it. All of the locking sits
 // in the constant. (b) In the first infimum (exercise 1): the element of $K_h$ that is near $u$ has a slope in the
 // layer, for which the energy's norm charges $ε^{-2}$.
+// :number: 7.4 = table "both sides of (13)" constant element=P1 mesh=unstructured epsilon=1e-06
+// :number: 1.3 = table "both sides of (13)" constant element=CR mesh=structured epsilon=1e-06
 // :figure: consistency
 //
 // ## Exercises

@@ -239,6 +239,7 @@ void judge(const Table& lost, const Table& walls, const Table& flat, tutorial::R
 //
 // On the staggered mesh the share that is kept is the law's to 3.2e-4, as it must be on
 // rows.
+// :number: 3.2e-4 = line "share kept = the law's to {} on"
 //
 // (b) It depends on the mesh, and $h ≪ ε$ is enough on all of them. On the Delaunay mesh, on that of MeshAdapt, on the
 // jittered and the staggered one, and on rows of nearly equilateral triangles, half of the ridge is lost at ε between
@@ -247,6 +248,8 @@ void judge(const Table& lost, const Table& walls, const Table& flat, tutorial::R
 // 0.75 to 1.05 times $5.84 k$. It is a little to the left of the law where the triangles differ, because $u_h$ may lean
 // on the better ones among them, and the interpolant may not. The same $k$ costs CR a quarter of an order in the layer:
 // that is proved on rows ([order h](../20_order_h/20_order_h.cpp)), and a conjecture elsewhere.
+// :number: 0.75 = table "where half of the ridge is lost" "wall / 5.84 k" family=delaunay h=0.125
+// :number: 1.05 = table "where half of the ridge is lost" "wall / 5.84 k" family=rows h=0.125
 //
 // ## Exercises
 //

@@ -29,7 +29,9 @@
 // share in it. So $u$ is wrong on the layer, and through $Σ$ in the body. At last it is
 // flat zero on the layer: round-off imitates Figure 7. From ε = 1e-8 down most runs show
 // that something is wrong, because the factorisation fails or the contact set does not
-// settle. But 6 of the 42 runs below settle without a complaint.
+// settle. But some of the 42 runs below, 6 of them with the BLAS of this page, settle
+// without a complaint.
+// :number: 42 = line "of {} runs of the sum settle"
 //
 // The *condition number* foretells it: $κ(A) ∼ ε^{-2}$, and a solver may lose the relative error $10^{-16} κ$.
 //
@@ -164,7 +166,8 @@ void judge(const Table& results, const Table& conditions, const Table& lines, tu
   const Table stiff = conditions.filter_number("epsilon", [](double epsilon) { return epsilon <= 1e-4; });
   report.claim(stiff.max("factored") < 1.01 * stiff.min("factored"),
                "condition number of A_delta: {:.0e} from epsilon = 1e-4 on (observed)", stiff.max("factored"));
-  // Cholesky and LU on three settings. Which runs settle depends on the BLAS: no exact number is asked for.
+  // Cholesky and LU on three settings. Which runs settle depends on the BLAS, so no exact number
+  // is asked for.
   const Table lost = naive.filter_number("epsilon", [](double epsilon) { return epsilon < 1.1e-8; });
   const int settled = lost.filter("ended", "settled; refused").size();
   report.claim(settled >= 1 && settled <= lost.size() / 3,
@@ -210,6 +213,7 @@ void judge(const Table& results, const Table& conditions, const Table& lines, tu
 // on. The split form has the same error to 1 % from 1e-3 to 1e-16, and `cure` agrees with
 // the library. $κ(A_δ)$ is 3e+09 from ε = 1e-4 down. So one solve keeps 6 to 7 digits, and
 // each correction adds as many.
+// :number: 3e+09 = line "condition number of A_delta: {} from"
 // :output: stiff lines of slope 2: the deepest u on Sigma
 //
 // Every method tends to a limit of its own with order 2 in ε: all are asymptotic-preserving. P1 off the lines tends to

@@ -181,6 +181,7 @@ void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Rep
 //
 // (a) For the force $v$ alone. With $u$ CR and $v$ P1 it is 73 % too large, like that of P1
 // for both. P2 locks too: it has parabolas of $x$, and no more.
+// :number: 73 = table "CR / P1: the force is off" worst h=0.03125
 //
 // **A right force, and yet locked.** With $u$ P1 and $v$ CR the force is right to 1 %. But
 // on arbitrary triangles $u$ on the coating can only be $a + b x$ in the limit. It is wrong

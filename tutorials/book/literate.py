@@ -6,6 +6,7 @@
 - `Run: COMMAND    what it does` lines become a table with buttons; includes are folded away.
 - `:live: string` places a live figure, `:live: mesh=layered cells=32` the one of P1 and Crouzeix-Raviart with its settings.
 - `:figure: NAME ...` places pictures of figures/table.toml, `:output:` what the program printed: pages.py puts them in.
+- `:number: ...` is for tests/chapters/numbers, and is left out.
 """
 import html
 import re
@@ -39,6 +40,11 @@ def chunks(lines):
         block.append(body if new == "prose" else line.rstrip())
     if any(part.strip() for part in block):
         yield kind, block
+
+
+def without_marks(lines):
+    """The lines but the marks of tests/chapters/numbers."""
+    return [line for line in lines if not line.startswith("// :number: ")]
 
 
 def dedent(lines):
@@ -183,7 +189,7 @@ class Page:
         self.twin = steps(twin)
         self.shown = set()
         step = None
-        for kind, block in chunks(source.read_text().splitlines()):
+        for kind, block in chunks(without_marks(source.read_text().splitlines())):
             if kind == "code":
                 head = next((i for i, line in enumerate(block) if line.strip() and not line.startswith(("#include", "using "))),
                             len(block))

@@ -9,8 +9,9 @@ namespace antilock {
 /// introduction of [SR04] names (cited in problem/variational_inequality.hpp). The coating has the
 /// thickness t and the material `layer`, both of whose moduli are divided by t. Lengths are
 /// relative to the block, and all moduli are relative to the same modulus. The mesh of the coating
-/// is stretched to depth 1, Y = y / t. With the displacement (u, v) and r = lambda / (lambda + 2 mu)
-/// of the layer, which is nu / (1 - nu) for Poisson's ratio nu, the energy of the coating is half of
+/// is stretched to depth 1, Y = y / t. Let (u, v) be the displacement and r = lambda / (lambda + 2
+/// mu) of the layer, which is nu / (1 - nu) for Poisson's ratio nu. The energy of the coating is
+/// half of
 ///
 ///     int membrane u_x^2 + (lambda + 2 mu) (v_Y / t + r u_x)^2 + mu (u_Y / t + v_x)^2,
 ///     membrane = 4 mu (lambda + mu) / (lambda + 2 mu),
