@@ -81,12 +81,18 @@
 // triangles that point up and $+k w''$ on the others, with the bending length $k = b^2/(8H)$ and $w'' = ∂_{xx} w$. For P1
 // this costs the energy of bending $(k/ε)^2 ‖w''‖^2$: it locks.
 //
-// CR meets the same slope in another role. Let $w$ now be P1, and 0 on Σ, on $Γ_C$ and near the sides. Multiply its
-// slope across by $χ$, which is $1$ on triangles that point up and $-1$ on the others. Then $(χ ∂_y w, 0)$ is the
-// gradient of an $e_h ∈ V_h$, which has a slope along $x$ and none across. So the stiff form does not see $e_h$, which
-// can serve as a test function at ε = 0. Let $w$ be a bend at the place where $∂_{xx} u$ jumps by $J$. There $e_h$
-// finds a work that a smooth $u$ would not do. Hence (*Proposition E*) the part $S^-$ of $|e|_a$ in the layer is at
-// least of size $|J| k^{3/4}$ as $h → 0$.
+// CR meets the same slope in another role. Let $w$ now be P1, and 0 on Σ, on $Γ_C$ and near
+// the sides. Multiply its slope across by $χ$, which is $1$ on triangles that point up and
+// $-1$ on the others. Then $(χ ∂_y w, 0)$ is the gradient of an $e_h ∈ V_h$, which has a
+// slope along $x$ and none across. The reason is that this field is orthogonal to
+// $(∂_y φ, -∂_x φ)$ for every P1 function $φ$: on a row the sum over the triangles is one
+// form of the values on the upper line less the same form of those on the lower line, so
+// over all rows it telescopes to Σ and $Γ_C$, where $w$ is 0. Fields with this property are
+// gradients of CR functions (the discrete Helmholtz decomposition,
+// [5.4](../guides/uniform_rate.md)). So the stiff form does not see $e_h$, which can serve
+// as a test function at ε = 0. Let $w$ be a bend at the place where $∂_{xx} u$ jumps by
+// $J$. There $e_h$ finds a work that a smooth $u$ would not do. Hence (*Proposition E*) the
+// part $S^-$ of $|e|_a$ in the layer is at least of size $|J| k^{3/4}$ as $h → 0$.
 
 #include "support.hpp"
 
