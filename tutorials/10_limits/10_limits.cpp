@@ -137,6 +137,8 @@ void judge_ventcel(const Table& sigma, const Exact& limit, int cells, tutorial::
                sigma.min("r"), sigma.max("r"), product);
   report.claim(free < 4e-7 && pressure < 1e-5,
                "(25): |r| <= {:.0e} where u > 0; r is the contact pressure to {:.0e} (proved)", free, pressure);
+  // In columns a function of K_0h is known by its trace on Sigma, and its layer has the energy of
+  // P1's string. So the discrete limit is the discrete (25).
   const double apart = tutorial::against_ventcel(cells);
   report.claim(apart < 1e-13, "on a mesh: u_h^0 with a layer and the string without one agree to {:.0e} (proved)",
                apart);
