@@ -349,8 +349,8 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     if (progress) progress(history.back());
     if (relative <= accuracy.relative) {
       Result& result = level.result;
-      result.locking = report_locking(scene, result);
-      result.warning = joined(result.locking ? result.locking->warning : "", warning);
+      result.warning = warning;
+      add_locking_report(result, report_locking(scene, result));
       Solution companion = companion_solution(level.v, now.mesh);
       return {std::move(result), std::move(companion), std::move(level.certificate), std::move(history)};
     }

@@ -20,8 +20,7 @@ Result solve(const Scene& scene, const Space& space, const Solver& solver) {
   Result result{.space = space, .problem = assemble(scene, space)};
   result.seconds.assemble = watch.lap();
   result.solution = solver(result.problem);
-  result.locking = report_locking(scene, result);
-  result.warning = joined(result.locking ? result.locking->warning : "", result.solution.warning);
+  add_locking_report(result, report_locking(scene, result));
   const SolveSeconds& spent = result.solution.seconds;
   result.seconds.factor = spent.analyse + spent.factor;
   result.seconds.solve = watch.lap() - result.seconds.factor;

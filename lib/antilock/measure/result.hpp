@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/solution.hpp"
@@ -70,6 +71,14 @@ inline Result assemble_fixed_rows(const Result& result) {
 /// Returns both warnings in one line, or the one that is not empty.
 inline std::string joined(const std::string& a, const std::string& b) {
   return a + (a.empty() || b.empty() ? "" : "; ") + b;
+}
+
+/// Adds a report on locking to a result. The warning of the result then consists of that of the
+/// report, that of the solution, and the one that the result had before.
+inline void add_locking_report(Result& result, std::optional<LockingReport> report) {
+  const std::string locking = report ? report->warning : "";
+  result.locking = std::move(report);
+  result.warning = joined(joined(locking, result.solution.warning), result.warning);
 }
 
 }  // namespace antilock
