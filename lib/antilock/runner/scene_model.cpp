@@ -26,20 +26,6 @@ Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p)
   return stress;
 }
 
-/// antilock::solve for a block.
-template <class Model>
-Result solve_block(const Model& model, const SceneFile& file, const Space& space, const Solver& solver) {
-  Result result{.space = space, .problem = model.problem(file.scene, space)};
-  result.solution = solver(result.problem);
-  result.locking = model.locking_report(file, space);
-  result.warning = joined(result.locking ? result.locking->warning : "", result.solution.warning);
-  return result;
-}
-
-void write_block(const std::filesystem::path& path, const Result& result, const Eigen::VectorXd& pressure) {
-  write_deformed_vtu(path, {result.space, result.space}, result.solution.u, pressure);
-}
-
 }  // namespace
 
 Eigen::VectorXd AntiPlaneModel::dirichlet_values(const Scene& scene, const TriangleMesh& mesh) const {
@@ -91,16 +77,31 @@ std::optional<Eigen::VectorXd> PressedModel<Block>::friction_forces(const Result
   return forces;
 }
 
+template <class Block>
+Result PressedModel<Block>::solve(const SceneFile& file, const Space& space, const Solver& solver) const {
+  Result result{.space = space, .problem = problem(file.scene, space)};
+  result.solution = solver(result.problem);
+  add_locking_report(result, locking_report(file, space));
+  return result;
+}
+
+template <class Block>
+void PressedModel<Block>::write_picture(const std::filesystem::path& path, const Result& result,
+                                        const Eigen::VectorXd&) const {
+  write_deformed_vtu(path, {result.space, result.space}, result.solution.u, pressure(result));
+}
+
 template struct PressedModel<PlaneStrain>;
 template struct PressedModel<Coating>;
 
-std::optional<double> RubberModel::penalty(const Space&) const { return {}; }
-
-Result RubberModel::solve(const SceneFile& file, const Space& space, const Solver& solver) const {
-  return solve_block(*this, file, space, solver);
+template <>
+std::optional<double> PressedModel<PlaneStrain>::penalty(const Space&) const {
+  return {};
 }
 
-std::optional<LockingReport> RubberModel::locking_report(const SceneFile& file, const Space& space) const {
+template <>
+std::optional<LockingReport> PressedModel<PlaneStrain>::locking_report(const SceneFile& file,
+                                                                       const Space& space) const {
   const Element& element = space.element();
   const double h = mesh_width(file, space.mesh());
   // P1 in rubber, pressed on a round punch: its force is 4 to 10 % too large at h^2 = epsilon / 10 (both meshes, 1/h =
@@ -113,25 +114,20 @@ std::optional<LockingReport> RubberModel::locking_report(const SceneFile& file, 
                        "P1 locks in this rubber: the contact force is too large; remedy: element = \"CR\" or \"P2\""};
 }
 
-Eigen::VectorXd RubberModel::pressure(const Result& result) const {
+template <>
+Eigen::VectorXd PressedModel<PlaneStrain>::pressure(const Result& result) const {
   const Eigen::VectorXd& p = result.solution.p;
   const Eigen::Index triangles = result.space.mesh().triangle_count();
   return -p.reshaped(p.size() / triangles, triangles).colwise().mean().transpose();
 }
 
-void RubberModel::write_picture(const std::filesystem::path& path, const Result& result, const Eigen::VectorXd&) const {
-  write_block(path, result, pressure(result));
-}
-
-std::optional<double> CoatingModel::penalty(const Space& space) const {
+template <>
+std::optional<double> PressedModel<Coating>::penalty(const Space& space) const {
   return antilock::penalty(block, {space, space});
 }
 
-Result CoatingModel::solve(const SceneFile& file, const Space& space, const Solver& solver) const {
-  return solve_block(*this, file, space, solver);
-}
-
-std::optional<LockingReport> CoatingModel::locking_report(const SceneFile&, const Space& space) const {
+template <>
+std::optional<LockingReport> PressedModel<Coating>::locking_report(const SceneFile&, const Space& space) const {
   const Element& element = space.element();
   if (!element.conforming())
     return LockingReport{element.name() + " does not lock: its slopes across the coating are free", {}, ""};
@@ -151,13 +147,9 @@ std::optional<LockingReport> CoatingModel::locking_report(const SceneFile&, cons
   return report;
 }
 
-Eigen::VectorXd CoatingModel::pressure(const Result& result) const {
+template <>
+Eigen::VectorXd PressedModel<Coating>::pressure(const Result& result) const {
   return antilock::pressure(block, {result.space, result.space}, result.solution.u, result.solution.p);
-}
-
-void CoatingModel::write_picture(const std::filesystem::path& path, const Result& result,
-                                 const Eigen::VectorXd&) const {
-  write_block(path, result, pressure(result));
 }
 
 }  // namespace antilock

@@ -68,33 +68,40 @@ struct PressedModel {
   std::string beyond_the_paper(const Scene&) const { return traits.name; }
   Eigen::VectorXd dirichlet_values(const Scene& scene, const TriangleMesh& mesh) const;
   VariationalInequality problem(const Scene& scene, const Space& space) const;
+  std::optional<double> penalty(const Space& space) const;
+  Result solve(const SceneFile& file, const Space& space, const Solver& solver) const;
+  /// Returns the report on locking of this element on this mesh; empty if there is nothing to
+  /// report. Its criteria are not proved.
+  std::optional<LockingReport> locking_report(const SceneFile& file, const Space& space) const;
   std::optional<Eigen::VectorXd> friction_forces(const Result& result) const;
+  /// Returns T values, one per triangle: the pressure in the block.
+  Eigen::VectorXd pressure(const Result& result) const;
+  void write_picture(const std::filesystem::path& path, const Result& result, const Eigen::VectorXd& pressure) const;
   const char* picture(bool) const { return "deformed"; }
 };
 
 /// The model without a layer: rubber (models/plane_strain.hpp).
-struct RubberModel : PressedModel<PlaneStrain> {
-  std::optional<double> penalty(const Space& space) const;
-  Result solve(const SceneFile& file, const Space& space, const Solver& solver) const;
-  /// Reports that P1 locks where h^2 is not small beside epsilon. This criterion is not proved.
-  std::optional<LockingReport> locking_report(const SceneFile& file, const Space& space) const;
-  /// Returns T values, one per triangle: -lambda div u.
-  Eigen::VectorXd pressure(const Result& result) const;
-  void write_picture(const std::filesystem::path& path, const Result& result, const Eigen::VectorXd& pressure) const;
-};
+using RubberModel = PressedModel<PlaneStrain>;
+template <>
+std::optional<double> PressedModel<PlaneStrain>::penalty(const Space& space) const;
+/// Reports that P1 locks where h^2 is not small beside epsilon.
+template <>
+std::optional<LockingReport> PressedModel<PlaneStrain>::locking_report(const SceneFile& file, const Space& space) const;
+/// Returns -lambda div u.
+template <>
+Eigen::VectorXd PressedModel<PlaneStrain>::pressure(const Result& result) const;
 
 /// The model with the scaled layer: a coating of its thickness (models/coating.hpp).
-struct CoatingModel : PressedModel<Coating> {
-  std::optional<double> penalty(const Space& space) const;
-  Result solve(const SceneFile& file, const Space& space, const Solver& solver) const;
-  /// Reports locking for a conforming element on a layer without columns if the bending length k of
-  /// the mesh is not small compared with the thickness (analysis/locking.hpp). This criterion is
-  /// not proved.
-  std::optional<LockingReport> locking_report(const SceneFile& file, const Space& space) const;
-  /// Returns T values, one per triangle: minus the stress in y.
-  Eigen::VectorXd pressure(const Result& result) const;
-  void write_picture(const std::filesystem::path& path, const Result& result, const Eigen::VectorXd& pressure) const;
-};
+using CoatingModel = PressedModel<Coating>;
+template <>
+std::optional<double> PressedModel<Coating>::penalty(const Space& space) const;
+/// Reports locking for a conforming element on a layer without columns if the bending length k of
+/// the mesh is not small compared with the thickness (analysis/locking.hpp).
+template <>
+std::optional<LockingReport> PressedModel<Coating>::locking_report(const SceneFile& file, const Space& space) const;
+/// Returns minus the stress in y.
+template <>
+Eigen::VectorXd PressedModel<Coating>::pressure(const Result& result) const;
 
 using SceneModel = std::variant<AntiPlaneModel, RubberModel, CoatingModel>;
 
