@@ -175,9 +175,9 @@ Bound conforming_bound(const Scene& scene, const Space& space, const Variational
 
 /// Nonconforming: the certificate of our own Crouzeix-Raviart answer on this mesh, and the distance
 /// of the two.
-Bound nonconforming_bound(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                          const Eigen::VectorXd& v, const Solution& own) {
-  const double certified = certify(scene, {space, problem, own}).gradient, apart = energy_norm(problem, own.u - v, v);
+Bound nonconforming_bound(const Scene& scene, const Result& own, const Eigen::VectorXd& v) {
+  const double certified = certify(scene, own).gradient;
+  const double apart = energy_norm(own.problem, own.solution.u - v, v);
   return {certified + apart, fmt::format("the broken energy norm of u - v: {:.4g} proved of Antilock's "
                                          "Crouzeix-Raviart answer on this mesh, and {:.2g} "
                                          "between the two",
@@ -293,12 +293,11 @@ void add_arguments(CLI::App& line, Request& request) {
       "printed.");
 }
 
-/// The discrete function whose values the file has.
+/// The discrete function v whose values the file has, and Antilock's solution in the same space.
 struct GivenSolution {
   const Scene& scene;
-  const Space& space;
-  const VariationalInequality& problem;
-  const Solution& v;
+  Result own;
+  Solution v;
   std::string file;  ///< that v was read from
 };
 
@@ -316,14 +315,15 @@ struct EstimateReport {
 /// The errors against the exact solution. Returns those by triangle.
 Eigen::VectorXd add_exact_errors(EstimateReport& report, const GivenSolution& given, const ExactSolution& exact) {
   const ExactTable table(exact);
-  const Errors e = measure_errors(given.space, given.v, exact.epsilon(), reference(table));
+  const Space& space = given.own.space;
+  const Errors e = measure_errors(space, given.v, exact.epsilon(), reference(table));
   report.found["errors"] = {
       {"max_at_unknowns", e.max_at_unknowns}, {"max", e.max}, {"l2", e.l2}, {"h1", e.h1}, {"energy", e.energy}};
   report.print(
       "  errors (exact): {:.4g} at the unknowns, {:.4g} in the maximum norm, {:.4g} L2, {:.4g} H1, {:.4g} energy "
       "norm\n",
       e.max_at_unknowns, e.max, e.l2, e.h1, e.energy);
-  if (const auto most = a_priori_bound(given.space, given.scene.body().load)) {
+  if (const auto most = a_priori_bound(space, given.scene.body().load)) {
     report.found["a_priori"] = *most;
     report.print("  on this mesh the discrete solution is within {:.4g} (proved, order h){}\n", *most,
                  e.energy > *most ? ": this answer is not it" : "");
@@ -337,7 +337,8 @@ void add_bound(EstimateReport& report, const GivenSolution& given, const Bound& 
     report.print("  proved: at most {:.4g} ({})\n", bound.value, bound.of);
     return;
   }
-  const bool rigid = given.problem.compliance == 0 && given.problem.b.rows() > 0;
+  const VariationalInequality& problem = given.own.problem;
+  const bool rigid = problem.compliance == 0 && problem.b.rows() > 0;
   if (!rigid)
     throw Error(fmt::format("{}: no bound can be given: the error's is {}; accepted: values of the size of an answer",
                             given.file, bound.value));
@@ -384,18 +385,18 @@ void add_places(EstimateReport& report, const Space& space, const Eigen::VectorX
 void add_kept(EstimateReport& report, const GivenSolution& given, const Result& certified) {
   if (!(given.scene.layer_depth() > 0) || !given.scene.contact()) return;
   const double whole = layer_displacement(certified.space, certified.solution.u);
-  const double kept = whole > 0 ? layer_displacement(given.space, given.v.u) / whole : 1;
+  const double kept = whole > 0 ? layer_displacement(given.own.space, given.v.u) / whole : 1;
   report.found["kept"] = kept;
   report.print("  kept of the largest displacement on the contact boundary: {:.4g} %\n", 100 * kept);
 }
 
 /// Whether it locks. Only of the discrete solution, `own`, is that known. The distance to it is
 /// measured by the soft part of the norm, since the digits of a file are cut off.
-void add_diagnosis(EstimateReport& report, const GivenSolution& given, const Solution& own) {
+void add_diagnosis(EstimateReport& report, const Scene& scene, Result own, const Solution& v) {
   constexpr double alike = 1e-2;  // 1e-4 of the energy, beside the twentieth of its motion that is told of
-  const auto norm = [&](const Eigen::VectorXd& w) { return std::sqrt(w.dot(given.problem.a1 * w)); };
-  const double apart = norm(given.v.u - own.u);
-  const double size = norm(own.u);
+  const auto norm = [&](const Eigen::VectorXd& w) { return std::sqrt(w.dot(own.problem.a1 * w)); };
+  const double apart = norm(v.u - own.solution.u);
+  const double size = norm(own.solution.u);
   if (apart > alike * size) {
     report.found["diagnosis"] = nullptr;
     report.print(
@@ -404,7 +405,8 @@ void add_diagnosis(EstimateReport& report, const GivenSolution& given, const Sol
         size > 0 ? apart / size : apart);
     return;
   }
-  const auto layer = report_locking(given.scene, {given.space, given.problem, given.v});
+  own.solution = v;
+  const auto layer = report_locking(scene, own);
   if (!layer) return;
   report.found["diagnosis"] = layer->text();
   report.print("  layer: {}\n", layer->text());
@@ -430,27 +432,27 @@ void write_places(std::ostream& stream, const TriangleMesh& mesh, const Eigen::V
 }
 
 /// Solves the scene on the mesh and to an accuracy, and compares. Returns the error by triangle.
-Eigen::VectorXd add_comparison(EstimateReport& report, const GivenSolution& given, const Request& request) {
-  const TriangleMesh& mesh = given.space.mesh();
+Eigen::VectorXd add_comparison(EstimateReport& report, GivenSolution given, const Request& request) {
+  const Space space = given.own.space;
+  const TriangleMesh& mesh = space.mesh();
   const std::optional<ExactSolution> exact = is_unit_square(mesh) ? exact_solution_of(given.scene) : std::nullopt;
   Eigen::VectorXd error;
   if (exact) error = add_exact_errors(report, given, *exact);
-  const Solution own = active_set(given.problem);
+  given.own.solution = active_set(given.own.problem);
   const CertifiedSolution certified = solve_to(given.scene, mesh, AccuracyGoal{request.accuracy});
-  const Bound bound =
-      given.space.element().conforming()
-          ? conforming_bound(given.scene, given.space, given.problem, given.v.u, certified.certificate.energy_lower)
-          : nonconforming_bound(given.scene, given.space, given.problem, given.v.u, own);
+  const Bound bound = space.element().conforming() ? conforming_bound(given.scene, space, given.own.problem, given.v.u,
+                                                                      certified.certificate.energy_lower)
+                                                   : nonconforming_bound(given.scene, given.own, given.v.u);
   add_bound(report, given, bound);
   if (!exact) {
     const PointValues at(certified.result.space);
     const double epsilon = given.scene.epsilon().value_or(1);
-    error = measure_errors(given.space, given.v, epsilon, reference(certified.result, at)).by_triangle;
+    error = measure_errors(space, given.v, epsilon, reference(certified.result, at)).by_triangle;
   }
-  add_places(report, given.space, error, exact.has_value(), certified.certificate.gradient);
+  add_places(report, space, error, exact.has_value(), certified.certificate.gradient);
   add_kept(report, given, certified.result);
-  add_diagnosis(report, given, own);
-  if (!request.row.empty()) add_row(report, request.row, given.space.element().name(), bound.value);
+  add_diagnosis(report, given.scene, std::move(given.own), given.v);
+  if (!request.row.empty()) add_row(report, request.row, space.element().name(), bound.value);
   return error;
 }
 
@@ -475,18 +477,18 @@ int estimate(int argc, char** argv) {
   ReadAnswer read;
   match(read, mesh, rows, answer, request.mesh.string());
   const Space& space = *read.space;
-  const VariationalInequality problem = assemble(file.scene, space);
-  Solution v;
-  v.u = read.u;
-  v.p = Eigen::VectorXd::Zero(problem.b.rows());
-  if (problem.compliance > 0) v.p = problem.b * v.u / problem.compliance;
+  GivenSolution given{file.scene, {.space = space, .problem = assemble(file.scene, space)}, {}, answer};
+  const VariationalInequality& problem = given.own.problem;
+  given.v.u = read.u;
+  given.v.p = Eigen::VectorXd::Zero(problem.b.rows());
+  if (problem.compliance > 0) given.v.p = problem.b * read.u / problem.compliance;
 
   EstimateReport report;
   const std::string element = space.element().name();
   report.found = {{"element", element}, {"unknowns", space.free_count()}, {"h", mesh.diameter()}};
   report.print("{}: {}, {} unknowns\n", answer, element, space.free_count());
   report.text += read.digits;
-  const Eigen::VectorXd error = add_comparison(report, {file.scene, space, problem, v, answer}, request);
+  const Eigen::VectorXd error = add_comparison(report, std::move(given), request);
   if (!request.where.empty())
     write_file(request.where, [&](std::ostream& stream) { write_places(stream, mesh, error); });
   if (!request.out.empty())
