@@ -67,6 +67,100 @@ class CgIlut {
   Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteLUT<double>> cg_;
 };
 
+/// The solution x of K x = load + forces of the bounds, with the active unknowns at their lower
+/// bounds and no force at the others. It is empty where the factorisation gives up. `k` is K with
+/// both triangles.
+Eigen::VectorXd solve_with_active(const VariationalInequality& problem, const SummedSystem& system,
+                                  const SparseMatrix& k, const std::vector<bool>& active, SummedFactor kind) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(system.load.size());
+  std::vector<int> inactive;
+  for (int i = 0; i < static_cast<int>(x.size()); ++i) {
+    const int bound = i - system.ordering.interior;
+    if (bound >= 0 && active[bound])
+      x(i) = problem.bounds.lower(bound);
+    else
+      inactive.push_back(i);
+  }
+  SparseMatrix chosen(x.size(), static_cast<Eigen::Index>(inactive.size()));
+  for (std::size_t i = 0; i < inactive.size(); ++i) chosen.insert(inactive[i], static_cast<Eigen::Index>(i)) = 1;
+  const Eigen::VectorXd rest = system.load - system.upper_triangle.selfadjointView<Eigen::Upper>() * x;
+  const Eigen::VectorXd x_inactive = summed_solve(chosen.transpose() * k * chosen, rest(inactive), kind);
+  if (x_inactive.size() == 0) return {};
+  x(inactive) = x_inactive;
+  return x;
+}
+
+/// Sets lambda to the forces of the active bounds. Then releases the active bounds that pull and
+/// activates the others that are violated. Returns whether there is none. `x` and `force` have one
+/// entry per bound.
+bool update_active(Solution& s, const Eigen::VectorXd& lower, const Eigen::VectorXd& x, const Eigen::VectorXd& force) {
+  bool converged = true;
+  s.lambda.setZero();
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    if (s.active[i]) s.lambda(i) = force(i);
+    const double gap = x(i) - lower(i);
+    const bool is_wrong = s.active[i] ? force(i) < 0 : gap < 0;
+    if (!is_wrong) continue;
+    s.active[i] = !s.active[i];
+    converged = false;
+  }
+  return converged;
+}
+
+/// Refuses the options that this method does not have.
+void check_options(const UzawaOptions& options, const std::string& who) {
+  if (options.step_length && !(*options.step_length > 0))
+    throw Error(fmt::format("{}: step_length = {}; accepted: a positive number", who, *options.step_length));
+  if (options.stop_at)
+    throw Error(who + ": options.stop_at needs for the condensed matrix; accepted: tolerance, or the solver uzawa");
+}
+
+/// The step length 1.9 / mu, mu the largest eigenvalue of the compliance of the C bounded unknowns
+/// (the last C ones). The estimate of mu is from below, hence 1.9 < 2.
+double longest_step(CgIlut& solve, Eigen::Index unknowns, Eigen::Index bounded) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(unknowns);
+  const auto compliance = [&](const Eigen::VectorXd& force) {
+    Eigen::VectorXd b = zero;
+    b.tail(bounded) = force;
+    return Eigen::VectorXd(solve(b, zero).tail(bounded));
+  };
+  return 1.9 / largest_eigenvalue(compliance, bounded, 1e-2, 10);
+}
+
+/// An iterate of uzawa_cg_ilut.
+struct UzawaIterate {
+  Eigen::VectorXd x;       ///< u at the free unknowns
+  Eigen::VectorXd lambda;  ///< C
+};
+
+/// Iterates lambda <- max(0, lambda - rho (x - lower)), K x = load + lambda, until the step is
+/// within the tolerance. Then lambda and x belong together. Appends the relative steps to `history`.
+UzawaIterate iterate(CgIlut& solve, const Eigen::VectorXd& load, const Eigen::VectorXd& lower, double rho,
+                     const UzawaOptions& options, const Stopwatch& watch, std::vector<double>& history) {
+  const Eigen::Index bounded = lower.size();
+  UzawaIterate now{Eigen::VectorXd::Zero(load.size()), Eigen::VectorXd::Zero(bounded)};
+  while (true) {
+    Eigen::VectorXd b = load;
+    b.tail(bounded) += now.lambda;
+    now.x = solve(b, now.x);
+    if (bounded == 0) return now;
+    const Eigen::VectorXd gap = now.x.tail(bounded) - lower;
+    const Eigen::VectorXd next = (now.lambda - rho * gap).cwiseMax(0.0);
+    const double scale = std::max(now.x.cwiseAbs().maxCoeff(), lower.cwiseAbs().maxCoeff());
+    const double change = scale > 0 ? (next - now.lambda).cwiseAbs().maxCoeff() / rho / scale : 0;
+    history.push_back(change);
+    if (change <= options.tolerance) return now;
+    now.lambda = next;
+    const int steps = static_cast<int>(history.size());
+    if (steps >= options.max_iterations || watch.seconds() > options.max_seconds)
+      throw NotConverged(
+          fmt::format(
+              "uzawa, CG + ILUT: not converged: relative step {:.1e} after {} steps and {:.1f} s, accepted {:.0e}",
+              change, steps, watch.seconds(), options.tolerance),
+          change, steps);
+  }
+}
+
 }  // namespace
 
 SummedSystem summed_system(const VariationalInequality& problem, const std::string& who, const char* instead) {
@@ -96,15 +190,15 @@ std::string to_string(ConvergedReason reason) {
 
 NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_iterations) {
   const Stopwatch watch;
-  const auto [ordering, k, b, given] = summed_system(problem, "naive", "active_set");
-  const SparseMatrix both_triangles = k.selfadjointView<Eigen::Upper>();
-  const int size = static_cast<int>(b.size()), c = static_cast<int>(problem.bounds.unknowns.size());
+  const SummedSystem system = summed_system(problem, "naive", "active_set");
+  const SparseMatrix k = system.upper_triangle.selfadjointView<Eigen::Upper>();
+  const auto bounded = static_cast<Eigen::Index>(problem.bounds.unknowns.size());
   NaiveResult result;
   Solution& s = result.solution;
   s.solver = kind == SummedFactor::cholesky ? "naive, Cholesky of the sum" : "naive, LU of the sum";
-  s.u = given;
-  s.lambda = Eigen::VectorXd::Zero(c);
-  s.active.assign(c, false);
+  s.u = system.u;
+  s.lambda = Eigen::VectorXd::Zero(bounded);
+  s.active.assign(bounded, false);
 
   std::set<std::vector<bool>> tried;
   result.reason = ConvergedReason::max_iterations;
@@ -113,37 +207,18 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
       result.reason = ConvergedReason::cycled;
       break;
     }
-    // the active unknowns stand at their bounds and leave the system
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
-    std::vector<int> inactive;
-    for (int i = 0; i < size; ++i)
-      if (const int contact = i - ordering.interior; contact >= 0 && s.active[contact])
-        x(i) = problem.bounds.lower(contact);
-      else
-        inactive.push_back(i);
-    SparseMatrix chosen(size, static_cast<Eigen::Index>(inactive.size()));
-    for (std::size_t i = 0; i < inactive.size(); ++i) chosen.insert(inactive[i], static_cast<Eigen::Index>(i)) = 1;
-    const Eigen::VectorXd rest = b - k.selfadjointView<Eigen::Upper>() * x;
-    const Eigen::VectorXd found = summed_solve(chosen.transpose() * both_triangles * chosen, rest(inactive), kind);
+    const Eigen::VectorXd x = solve_with_active(problem, system, k, s.active, kind);
     ++s.counters.factorisations;
     ++s.counters.solves;
     ++s.counters.contact_iterations;
-    if (found.size() == 0) {
+    if (x.size() == 0) {
       result.reason = ConvergedReason::linear_solve_failed;
       break;
     }
-    x(inactive) = found;
-    const Eigen::VectorXd force = (k.selfadjointView<Eigen::Upper>() * x - b).tail(c);
-    bool converged = true;
-    s.lambda.setZero();
-    for (int i = 0; i < c; ++i) {
-      if (s.active[i]) s.lambda(i) = force(i);
-      const double gap = x(ordering.interior + i) - problem.bounds.lower(i);
-      if (!(s.active[i] ? force(i) < 0 : gap < 0)) continue;
-      s.active[i] = !s.active[i];
-      converged = false;
-    }
-    s.u(ordering.dof) = x;
+    const Eigen::VectorXd force =
+        (system.upper_triangle.selfadjointView<Eigen::Upper>() * x - system.load).tail(bounded);
+    const bool converged = update_active(s, problem.bounds.lower, x.tail(bounded), force);
+    s.u(system.ordering.dof) = x;
     if (converged) {
       result.reason = ConvergedReason::converged;
       break;
@@ -158,55 +233,24 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
 
 Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options) {
   const std::string who = "uzawa, CG + ILUT";
-  if (options.step_length && !(*options.step_length > 0))
-    throw Error(fmt::format("{}: step_length = {}; accepted: a positive number", who, *options.step_length));
-  if (options.stop_at)
-    throw Error(who + ": options.stop_at needs for the condensed matrix; accepted: tolerance, or the solver uzawa");
-  Stopwatch watch, stage;
-  const auto [ordering, upper_triangle, load, given] = summed_system(problem, who, "uzawa");
-  CgIlut solve(upper_triangle);
+  check_options(options, who);
+  const Stopwatch watch;
+  Stopwatch stage;
+  const SummedSystem system = summed_system(problem, who, "uzawa");
+  CgIlut solve(system.upper_triangle);
   Solution s;
   s.solver = who;
   s.seconds.factor = stage.lap();
-  s.u = given;
-  const auto c = static_cast<Eigen::Index>(problem.bounds.unknowns.size()), f = load.size();
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(f);
-
+  s.u = system.u;
+  const auto bounded = static_cast<Eigen::Index>(problem.bounds.unknowns.size());
   double rho = options.step_length.value_or(0);
-  if (!options.step_length && c > 0) {
-    const auto compliance = [&](const Eigen::VectorXd& force) {
-      Eigen::VectorXd b = zero;
-      b.tail(c) = force;
-      return Eigen::VectorXd(solve(b, zero).tail(c));
-    };
-    rho = 1.9 / largest_eigenvalue(compliance, c, 1e-2, 10);  // 1.9 < 2: the estimate is from below
-  }
+  if (!options.step_length && bounded > 0) rho = longest_step(solve, system.load.size(), bounded);
 
-  Eigen::VectorXd x = zero, lambda = Eigen::VectorXd::Zero(c);
-  while (true) {
-    Eigen::VectorXd b = load;
-    b.tail(c) += lambda;
-    x = solve(b, x);
-    if (c == 0) break;
-    const Eigen::VectorXd gap = x.tail(c) - problem.bounds.lower;
-    const Eigen::VectorXd next = (lambda - rho * gap).cwiseMax(0.0);
-    const double scale = std::max(x.cwiseAbs().maxCoeff(), problem.bounds.lower.cwiseAbs().maxCoeff());
-    const double change = scale > 0 ? (next - lambda).cwiseAbs().maxCoeff() / rho / scale : 0;
-    s.history.push_back(change);
-    if (change <= options.tolerance) break;  // lambda and x still belong together
-    lambda = next;
-    const int steps = static_cast<int>(s.history.size());
-    if (steps >= options.max_iterations || watch.seconds() > options.max_seconds)
-      throw NotConverged(
-          fmt::format(
-              "uzawa, CG + ILUT: not converged: relative step {:.1e} after {} steps and {:.1f} s, accepted {:.0e}",
-              change, steps, watch.seconds(), options.tolerance),
-          change, steps);
-  }
+  UzawaIterate last = iterate(solve, system.load, problem.bounds.lower, rho, options, watch, s.history);
   s.seconds.solve = stage.lap();
-  s.u(ordering.dof) = x;
-  s.lambda = lambda;
-  for (Eigen::Index i = 0; i < c; ++i) s.active.push_back(lambda(i) > 0);
+  s.u(system.ordering.dof) = last.x;
+  s.lambda = std::move(last.lambda);
+  for (Eigen::Index i = 0; i < bounded; ++i) s.active.push_back(s.lambda(i) > 0);
   s.p = problem.b * s.u / problem.compliance;
   s.counters.unknowns = problem.free_count();
   s.counters.factorisations = 1;
