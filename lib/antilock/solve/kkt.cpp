@@ -30,6 +30,53 @@ double ratio(double value, double scale) { return value == 0 ? 0.0 : value / sca
 double min_or_nan(double a, double b) { return std::isnan(a) || a < b ? a : b; }
 double max_or_nan(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
+void check_sizes(const VariationalInequality& problem, const Solution& solution) {
+  const Eigen::Index u = solution.u.size();
+  const Eigen::Index p = solution.p.size();
+  const Eigen::Index lambda = solution.lambda.size();
+  if (u == problem.size() && p == problem.b.rows() && lambda == problem.bounds.count()) return;
+  throw Error(fmt::format("kkt: u, p and lambda have {}, {} and {} entries; accepted {}, {} and {}", u, p, lambda,
+                          problem.size(), problem.b.rows(), problem.bounds.count()));
+}
+
+/// Calls of(unknown, coefficient) for the unknowns whose sum the bound i bounds.
+template <class Function>
+void for_each_unknown(const Bounds& bounds, int i, const Function& of) {
+  const int on_unknowns = static_cast<int>(bounds.unknowns.size());
+  if (i < on_unknowns) return of(bounds.unknowns[i], 1.0);
+  for (RowMatrix::InnerIterator c(bounds.constraints, i - on_unknowns); c; ++c)
+    if (c.value() != 0) of(static_cast<int>(c.col()), c.value());
+}
+
+/// Adds E' lambda to r1 and t. Returns F_0.
+double add_bound_forces(KktParts& parts, const VariationalInequality& problem, const Eigen::VectorXd& lambda) {
+  double largest_force = problem.load.lpNorm<Eigen::Infinity>();
+  for (int i = 0; i < problem.bounds.count(); ++i)
+    for_each_unknown(problem.bounds, i, [&](int unknown, double c) {
+      parts.add_force(unknown, c * lambda(i));
+      largest_force = std::max(largest_force, std::abs(c * lambda(i)));
+    });
+  return largest_force;
+}
+
+/// Adds all bounds, each with its own scales. `forces` (N) is the result of add_equations.
+void add_bounds(Kkt& kkt, const Bounds& bounds, const Solution& solution, double largest_u,
+                const Eigen::VectorXd& forces) {
+  const Eigen::VectorXd values = bounded_values(bounds, solution.u);
+  kkt.min_gap = unbounded;
+  kkt.min_pressure = unbounded;
+  for (int i = 0; i < bounds.count(); ++i) {
+    double sum_of_coefficients = 0;
+    double force = unbounded;
+    for_each_unknown(bounds, i, [&](int unknown, double c) {
+      sum_of_coefficients += std::abs(c);
+      force = std::min(force, forces(unknown) / std::abs(c));
+    });
+    add_bound(kkt, bounds, i, values(i), solution.lambda(i), largest_u * sum_of_coefficients, force);
+  }
+  if (kkt.min_gap == unbounded) kkt.min_gap = 0;  // every bound has a force limit
+}
+
 }  // namespace
 
 KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p) {
@@ -94,29 +141,16 @@ void add_bound(Kkt& kkt, const BoundLimits& bounds, int i, double value, double 
 
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   check_data(problem);
-  const Eigen::VectorXd &u = solution.u, &p = solution.p, &lambda = solution.lambda;
-  if (u.size() != problem.size() || p.size() != problem.b.rows() || lambda.size() != problem.bounds.count())
-    throw Error(fmt::format("kkt: u, p and lambda have {}, {} and {} entries; accepted {}, {} and {}", u.size(),
-                            p.size(), lambda.size(), problem.size(), problem.b.rows(), problem.bounds.count()));
+  check_sizes(problem, solution);
+  const Eigen::VectorXd& u = solution.u;
   Kkt kkt;
-  if (!u.allFinite() || !p.allFinite() || !lambda.allFinite()) {  // Eigen's maxima may pass over what is not a number
+  // Eigen's maxima may pass over what is not a number
+  if (!u.allFinite() || !solution.p.allFinite() || !solution.lambda.allFinite()) {
     kkt.residual = unbounded;
     return kkt;
   }
-  const Bounds& bounds = problem.bounds;
-  const int contact = static_cast<int>(bounds.unknowns.size());
-  const auto each_of = [&](int bound, const auto& of) {  // the unknowns of a bound, and how much it holds of each
-    if (bound < contact) return of(bounds.unknowns[bound], 1.0);
-    for (RowMatrix::InnerIterator c(bounds.constraints, bound - contact); c; ++c)
-      if (c.value() != 0) of(static_cast<int>(c.col()), c.value());
-  };
-  KktParts parts = kkt_parts(problem, u, p);
-  double largest_force = problem.load.lpNorm<Eigen::Infinity>();
-  for (int i = 0; i < bounds.count(); ++i)
-    each_of(i, [&](int unknown, double c) {
-      parts.add_force(unknown, c * lambda(i));
-      largest_force = std::max(largest_force, std::abs(c * lambda(i)));
-    });
+  KktParts parts = kkt_parts(problem, u, solution.p);
+  const double largest_force = add_bound_forces(parts, problem, solution.lambda);
   double with_reactions = largest_force;
   std::vector<char> fixed(problem.size(), 0);
   for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i) {
@@ -128,18 +162,7 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   }
   const double largest_u = std::max(u.lpNorm<Eigen::Infinity>(), KktTolerances{}.fail * solution.penalised_max_u);
   const Eigen::VectorXd forces = add_equations(kkt, parts, fixed, largest_u, largest_force, with_reactions);
-  if (bounds.count() == 0) return kkt;
-  const Eigen::VectorXd values = bounded_values(bounds, u);
-  kkt.min_gap = kkt.min_pressure = unbounded;
-  for (int i = 0; i < bounds.count(); ++i) {  // each in its own units
-    double most_of_it = 0, force = unbounded;
-    each_of(i, [&](int unknown, double c) {
-      most_of_it += std::abs(c);
-      force = std::min(force, forces(unknown) / std::abs(c));
-    });
-    add_bound(kkt, bounds, i, values(i), lambda(i), largest_u * most_of_it, force);
-  }
-  if (kkt.min_gap == unbounded) kkt.min_gap = 0;  // every bound gives way
+  if (problem.bounds.count() > 0) add_bounds(kkt, problem.bounds, solution, largest_u, forces);
   return kkt;
 }
 
