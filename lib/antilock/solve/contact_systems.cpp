@@ -62,6 +62,33 @@ bool constants_are_free(const ConstrainedCholesky& k) {
   return 4 * (k.times(one).array().abs() > defaults::round_off * k.absolute_times(one).array()).count() < one.size();
 }
 
+/// The bounds of the sums over groups of unknowns: the means of the finite limits, and the sums of
+/// the forces. `members` (unknowns x groups) is 1 at the group of each unknown, and `bounded` has
+/// the unknown of each bound.
+ShiftedBounds aggregated(const ShiftedBounds& bounds, const RowMatrix& members, const std::vector<int>& bounded) {
+  const auto sum = [&](const Eigen::VectorXd& of_bounds) {
+    Eigen::VectorXd of_unknowns = Eigen::VectorXd::Zero(members.rows());
+    of_unknowns(bounded) = of_bounds;
+    return Eigen::VectorXd(members.transpose() * of_unknowns);
+  };
+  const auto mean = [&](const Eigen::VectorXd& limits, double none) {
+    const auto finite = limits.array().isFinite();
+    const Eigen::ArrayXd count = sum(finite.cast<double>());
+    const Eigen::ArrayXd total = sum(finite.select(limits.array(), 0));
+    return Eigen::VectorXd((count > 0).select(total / count, none));
+  };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {BoundLimits(mean(bounds.lower, -infinity), mean(bounds.upper, infinity), sum(bounds.force_limit)),
+          sum(bounds.multiplier_estimate)};
+}
+
+/// The prolongation P = (I - 2/3 D^-1 K) P0 of smoothed aggregation, P0 = `members`. The weight is
+/// Vanek's 4/3 over the largest eigenvalue of D^-1 K, which is about 2 for first derivatives.
+SparseMatrix smoothed_aggregation(const SparseMatrix& k, const RowMatrix& members) {
+  const Eigen::VectorXd weight = (2.0 / 3) * k.diagonal().cwiseInverse();
+  return SparseMatrix(members) - SparseMatrix(weight.asDiagonal() * SparseMatrix(k * members));
+}
+
 }  // namespace
 
 SchurComplementContact::SchurComplementContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q)
@@ -128,30 +155,14 @@ BoundStatuses SparseContact::nested_start(const ShiftedBounds& bounds, int max_i
 
   RowMatrix members(q_.size(), groups);
   for (Eigen::Index i = 0; i < q_.size(); ++i) members.insert(i, group[i]) = 1;
-  const auto sum = [&](const Eigen::VectorXd& of_bounds) {  // by group
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(q_.size());
-    all(bounded()) = of_bounds;
-    return Eigen::VectorXd(members.transpose() * all);
-  };
-  const auto mean = [&](const Eigen::VectorXd& of_bounds, double none) {  // of those that there are
-    const auto known = of_bounds.array().isFinite();
-    const Eigen::ArrayXd count = sum(known.cast<double>()), all = sum(known.select(of_bounds.array(), 0));
-    return Eigen::VectorXd((count > 0).select(all / count, none));
-  };
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const ShiftedBounds fewer(
-      BoundLimits(mean(bounds.lower, -infinity), mean(bounds.upper, infinity), sum(bounds.force_limit)),
-      sum(bounds.multiplier_estimate));
-  // P = (I - 2/3 D^-1 K) P0, P0 = 1 on the members of a group: the weight is Vanek's 4/3 over the largest eigenvalue of
-  // D^-1 K, about 2 for first derivatives
-  const Eigen::VectorXd weight = (2.0 / 3) * whole.diagonal().cwiseInverse();
-  const SparseMatrix p = SparseMatrix(members) - SparseMatrix(weight.asDiagonal() * SparseMatrix(whole * members));
+  const SparseMatrix p = smoothed_aggregation(whole, members);
   const Eigen::VectorXd q = p.transpose() * q_;
   try {
     ConstrainedCholesky k;
     if (k.factorise(SparseMatrix(p.transpose() * SparseMatrix(whole * p)).triangularView<Eigen::Upper>())) return start;
     SparseContact coarse(k, q, from_zero_to(groups));
-    const BoundStatuses status = solve_contact(coarse, fewer, std::nullopt, max_iterations).status;
+    const ShiftedBounds of_groups = aggregated(bounds, members, bounded());
+    const BoundStatuses status = solve_contact(coarse, of_groups, std::nullopt, max_iterations).status;
     const RowMatrix rows = p;
     for (std::size_t i = 0; i < bounded().size(); ++i) {
       start[i] = status[group[bounded()[i]]];
