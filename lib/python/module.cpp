@@ -84,7 +84,8 @@ Solved answer_of(const VariationalInequality& problem, double tolerance) {
   a.energy = energy(problem, a);
   const VectorXd lambda = a.lambda;
   const std::vector<bool> active = a.active;
-  a.lambda.setZero(problem.size()), a.active.assign(std::size_t(problem.size()), false);
+  a.lambda.setZero(problem.size());
+  a.active.assign(std::size_t(problem.size()), false);
   for (std::size_t i = 0; i < problem.bounds.unknowns.size(); ++i) {
     a.lambda(problem.bounds.unknowns[i]) = lambda(Eigen::Index(i));
     a.active[std::size_t(problem.bounds.unknowns[i])] = active[i];
@@ -115,7 +116,8 @@ py::tuple run(const std::string& text, const std::string& folder) {
                   "triangles"_a = answer.space.mesh().triangles);
   if (file.scene.contact()) arrays["contact"] = contact_table(normal_contact(answer));
   answer.solution.p.conservativeResize(answer.problem.parametric_row_count());
-  arrays["u"] = given(answer.solution.u), arrays["p"] = given(answer.solution.p);
+  arrays["u"] = given(answer.solution.u);
+  arrays["p"] = given(answer.solution.p);
   return py::make_tuple(arrays, summary);
 }
 
@@ -194,15 +196,14 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
-}  // namespace
-
-PYBIND11_MODULE(_antilock, module) {
-  module.attr("__version__") = ANTILOCK_VERSION;
+void register_errors(py::module_& module) {
   const py::object error = py::register_exception<Error>(module, "Error", PyExc_ValueError);
   py::register_exception<NotConverged>(module, "NotConverged", error);
   for (const char* name : {"Error", "NotConverged"}) module.attr(name).attr("__module__") = "antilock";
   py::register_local_exception_translator(&translate);
+}
 
+void register_problem(py::module_& module) {
   using P = VariationalInequality;
   py::class_<P>(module, "Problem")
       .def(py::init(&problem_from))
@@ -232,7 +233,9 @@ PYBIND11_MODULE(_antilock, module) {
           "a1", [](const P& p) { return p.a1; }, "N x N, scipy's CSC, a copy")
       .def_property_readonly(
           "b", [](const P& p) { return p.b; }, "R x N, scipy's CSR, a copy");
+}
 
+void register_solution(py::module_& module) {
   using S = Solved;
   py::class_<S>(module, "Solution", "u with its forces. Arrays are read-only views of the answer's memory.")
       .def_readonly("u", &S::u, "N")
@@ -245,7 +248,9 @@ PYBIND11_MODULE(_antilock, module) {
       .def_property_readonly("corrections", [](const S& s) { return s.counters.corrections; })
       .def_property_readonly(
           "residual", [](const S& s) { return s.kkt.residual; }, "of the KKT report, relative");
+}
 
+void register_diagnosis(py::module_& module) {
   py::class_<LockingDiagnosis>(module, "Diagnosis",
                                "Whether a discretisation can follow compliance -> 0; str() says why.")
       .def_property_readonly("locks", &LockingDiagnosis::locks)
@@ -253,7 +258,9 @@ PYBIND11_MODULE(_antilock, module) {
                     "independent motions of the bounds without strain, coarse mesh")
       .def_readonly("fine", &LockingDiagnosis::fine, "the same on the finer mesh")
       .def("__str__", &LockingDiagnosis::text);
+}
 
+void register_exact_solution(py::module_& module) {
   using T = TabulatedExact;
   using Any = const py::object&;
   py::class_<T>(module, "ExactSolution", "The exact solution of (23). x and y are numbers or arrays, which broadcast.")
@@ -302,7 +309,9 @@ PYBIND11_MODULE(_antilock, module) {
           "contact", [](const T& t) { return t.solution.contact_zones(); }, "intervals of x, to 1e-5");
 
   module.attr("Truth") = module.attr("ExactSolution");  // the name in 0.2
+}
 
+void register_functions(py::module_& module) {
   module.def("without_void_bound", py::vectorize(&bound_or_infinity), "infinite where |bound| >= 1e40");
   module.def("diagnose", &diagnose_locking, py::call_guard<Unlocked>());
   module.def("assemble", [](const std::string& text, const std::string& folder) {
@@ -312,4 +321,16 @@ PYBIND11_MODULE(_antilock, module) {
   });
   module.def("run", &run);
   module.def("certify", &certify_scene);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_antilock, module) {
+  module.attr("__version__") = ANTILOCK_VERSION;
+  register_errors(module);
+  register_problem(module);
+  register_solution(module);
+  register_diagnosis(module);
+  register_exact_solution(module);
+  register_functions(module);
 }
