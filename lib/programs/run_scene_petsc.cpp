@@ -105,111 +105,159 @@ void named(const std::string& file, const Work& work) {
   }
 }
 
-void answer(const std::filesystem::path& scene, const std::filesystem::path& out, const Choices& choices,
-            tutorial::Report& report) {
-  const auto say = [&](const std::string& what) {
-    if (dist::rank() == 0) report.stage(what);
-  };
-  Stopwatch watch;
-  std::optional<SceneFile> file;
-  dist::NestedOptions options;
-  Hierarchy h;
-  const std::filesystem::path kept = dist::checkpoint_path(out);
-  std::string question;
-  dist::collectively([&] {
-    file = read_scene_file(scene);
-    if (file->method.solver != "petsc")
-      throw Error(
-          fmt::format("{}: method.solver: \"{}\" runs without mpiexec, {} ranks were started; accepted: \"petsc\"",
-                      file->name, file->method.solver, dist::ranks()));
-    check_folder(out);
-    check_inputs_stay(out, scene, *file, dist::ranks());
-    question = dist::question_of(scene, file->mesh.file);
-    if (!choices.restart) return;
-    const dist::Checkpoint checkpoint = dist::read_checkpoint(kept, question);
-    options.start = checkpoint.set;
-    options.first_level = checkpoint.cells;  // cells for now; below the level
-  });
-  if (dist::rank() == 0)
-    fmt::print("run_scene: {} (petsc, {} rank{})\n", printable(file->title.empty() ? file->name : file->title, 200),
-               dist::ranks(), dist::ranks() > 1 ? "s" : "");
+/// The run of a scene. All ranks call its functions together.
+class SceneRun {
+ public:
+  SceneRun(std::filesystem::path scene, std::filesystem::path out, const Choices& choices, tutorial::Report& report)
+      : scene_(std::move(scene)),
+        out_(std::move(out)),
+        checkpoint_(dist::checkpoint_path(out_)),
+        choices_(choices),
+        report_(report) {}
 
-  say("coarse mesh");
-  dist::collectively([&] {
-    h = hierarchy(*file, dist::ranks());
-    check_memory(*file, h, dist::ranks());
-    const bool unit_square = !file->mesh.from_file();
-    if (unit_square && !options.start && file->scene.contact()) options.start = first_guess(file->scene);
-  });
-  if (choices.restart) {
-    const int solved = options.first_level;
-    options.first_level = 0;
-    while (options.first_level < h.refinements && (h.coarse_cells << options.first_level) <= solved)
-      ++options.first_level;
-    say(fmt::format("restart from the contact set at 1/h = {}", solved));
+  void answer() {
+    read();
+    if (dist::rank() == 0)
+      fmt::print("run_scene: {} (petsc, {} rank{})\n",
+                 printable(file_->title.empty() ? file_->name : file_->title, 200), dist::ranks(),
+                 dist::ranks() > 1 ? "s" : "");
+    begin_stage("coarse mesh");
+    make_coarse_mesh();
+    if (choices_.restart) skip_solved_levels();
+    set_options();
+    const double before = watch_.lap();
+    solve();
+    const std::string of_data = data_warning();
+    const std::optional<LockingReport> layer =
+        dist::layer_report_of_all(*file_, hierarchy_.coarse, hierarchy_.refinements, *level_);
+    const std::string warning = joined(layer ? layer->warning : "", of_data);
+    // the rest of the wall time belongs to the stages in between: files are counted apart
+    const double rest = watch_.lap() - solved_.mesh - solved_.assemble - solved_.setup;
+    const RunSeconds seconds{before + solved_.mesh, solved_.assemble, solved_.setup, rest};
+
+    begin_stage("files");
+    dist::write_scene_files(out_, *file_, *level_, solved_, hierarchy_.refinements + 1, layer, warning, seconds);
+    remove_checkpoint();
+    if (dist::rank() == 0) print_summary(warning);
   }
-  options.refinements = h.refinements;
-  options.loop.direct = choices.direct;
-  options.loop.progress = [most = choices.most_seconds, since = Stopwatch()](const Progress&) {
-    return since.seconds() <= most;
-  };
-  options.loop.tolerance = std::max(file->method.tolerance, MethodRequest::finest_tolerance);
-  options.loop.residual = std::max(options.loop.residual, options.loop.tolerance);
-  options.stage = say;
-  options.checkpoint = [&](int level, const dist::ContactSet& set) {
+
+ private:
+  void begin_stage(const std::string& what) {
+    if (dist::rank() == 0) report_.stage(what);
+  }
+
+  /// Reads the scene file, and with --restart the checkpoint.
+  void read() {
     dist::collectively([&] {
-      if (dist::rank() == 0) dist::write_checkpoint(kept, {question, h.coarse_cells << level, set});
+      file_ = read_scene_file(scene_);
+      if (file_->method.solver != "petsc")
+        throw Error(
+            fmt::format("{}: method.solver: \"{}\" runs without mpiexec, {} ranks were started; accepted: \"petsc\"",
+                        file_->name, file_->method.solver, dist::ranks()));
+      check_folder(out_);
+      check_inputs_stay(out_, scene_, *file_, dist::ranks());
+      question_ = dist::question_of(scene_, file_->mesh.file);
+      if (!choices_.restart) return;
+      const dist::Checkpoint checkpoint = dist::read_checkpoint(checkpoint_, question_);
+      options_.start = checkpoint.set;
+      solved_cells_ = checkpoint.cells;
     });
-  };
-  const double before = watch.lap();
-
-  dist::NestedReport solved;
-  std::unique_ptr<dist::NestedLevel> level;
-  const auto forget = [&] {
-    if (std::error_code ignored; dist::rank() == 0) std::filesystem::remove(kept, ignored);
-  };
-  try {
-    named(file->name, [&] {
-      level = dist::solve_nested(file->scene, h.coarse, element(file->method.element), options, solved);
-      if (file->method.tolerance < MethodRequest::finest_tolerance)
-        throw NotConverged(
-            fmt::format("petsc: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
-                        "double precision goes no further",
-                        MethodRequest::finest_tolerance, solved.last.corrections, file->method.tolerance),
-            MethodRequest::finest_tolerance, solved.last.corrections);
-    });
-  } catch (const Error&) {
-    forget();
-    throw;
   }
-  std::string warning;  // of the loads and obstacles that a rank sees on its own strip
-  dist::collectively([&] {
-    Solution here;
-    here.u = level->state.u;
-    warning = load_warning(*file, level->space, level->problem.part());
-    if (warning.empty() && file->scene.contact()) warning = gap_warning(*file, level->space, here);
-  });
-  warning = solved.warning.empty() ? dist::first_nonempty(warning) : solved.warning;
-  const std::optional<LockingReport> layer = dist::layer_report_of_all(*file, h.coarse, h.refinements, *level);
-  if (layer && !layer->warning.empty()) warning = layer->warning + (warning.empty() ? "" : "; " + warning);
-  // what is left of the wall time belongs to the stages in between: files are counted apart
-  const double rest = watch.lap() - solved.mesh - solved.assemble - solved.setup;
-  const RunSeconds seconds{before + solved.mesh, solved.assemble, solved.setup, rest};
 
-  say("files");
-  dist::write_scene_files(out, *file, *level, solved, h.refinements + 1, layer, warning, seconds);
-  forget();
-  if (dist::rank() > 0) return;
-  report.finish();
-  if (!warning.empty()) fmt::print("  warning: {}\n", warning);
-  fmt::print(
-      "  {} unknowns; {} corrections and {} iterations of conjugate gradients on the last level; results in {}\n",
-      solved.unknowns.back(), solved.last.corrections, solved.last.linear_iterations, out.string());
-  if (dist::ranks() == 1)
-    fmt::print("  a picture of it: {} surface {} --out {}\n", tutorial::in_shell(tutorial::sibling_path("render")),
-               tutorial::in_shell((out / "solution_0.vtu").string()),
-               tutorial::in_shell((out / "solution.png").string()));
-}
+  void make_coarse_mesh() {
+    dist::collectively([&] {
+      hierarchy_ = hierarchy(*file_, dist::ranks());
+      check_memory(*file_, hierarchy_, dist::ranks());
+      const bool unit_square = !file_->mesh.from_file();
+      if (unit_square && !options_.start && file_->scene.contact()) options_.start = first_guess(file_->scene);
+    });
+  }
+
+  /// Begins at the first level that is finer than that of the checkpoint.
+  void skip_solved_levels() {
+    options_.first_level = 0;
+    while (options_.first_level < hierarchy_.refinements &&
+           (hierarchy_.coarse_cells << options_.first_level) <= solved_cells_)
+      ++options_.first_level;
+    begin_stage(fmt::format("restart from the contact set at 1/h = {}", solved_cells_));
+  }
+
+  void set_options() {
+    options_.refinements = hierarchy_.refinements;
+    options_.loop.direct = choices_.direct;
+    options_.loop.progress = [most = choices_.most_seconds, since = Stopwatch()](const Progress&) {
+      return since.seconds() <= most;
+    };
+    options_.loop.tolerance = std::max(file_->method.tolerance, MethodRequest::finest_tolerance);
+    options_.loop.residual = std::max(options_.loop.residual, options_.loop.tolerance);
+    options_.stage = [this](const std::string& what) { begin_stage(what); };
+    options_.checkpoint = [this](int level, const dist::ContactSet& set) {
+      dist::collectively([&] {
+        if (dist::rank() == 0) dist::write_checkpoint(checkpoint_, {question_, hierarchy_.coarse_cells << level, set});
+      });
+    };
+  }
+
+  void remove_checkpoint() const {
+    if (std::error_code ignored; dist::rank() == 0) std::filesystem::remove(checkpoint_, ignored);
+  }
+
+  void solve() {
+    const MethodRequest& method = file_->method;
+    try {
+      named(file_->name, [&] {
+        level_ = dist::solve_nested(file_->scene, hierarchy_.coarse, element(method.element), options_, solved_);
+        if (method.tolerance < MethodRequest::finest_tolerance)
+          throw NotConverged(
+              fmt::format("petsc: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
+                          "double precision goes no further",
+                          MethodRequest::finest_tolerance, solved_.last.corrections, method.tolerance),
+              MethodRequest::finest_tolerance, solved_.last.corrections);
+      });
+    } catch (const Error&) {
+      remove_checkpoint();
+      throw;
+    }
+  }
+
+  /// The warning of the solver, else of the loads and obstacles that a rank sees on its own strip.
+  std::string data_warning() const {
+    std::string warning;
+    dist::collectively([&] {
+      Solution here;
+      here.u = level_->state.u;
+      warning = load_warning(*file_, level_->space, level_->problem.part());
+      if (warning.empty() && file_->scene.contact()) warning = gap_warning(*file_, level_->space, here);
+    });
+    return solved_.warning.empty() ? dist::first_nonempty(warning) : solved_.warning;
+  }
+
+  void print_summary(const std::string& warning) {
+    report_.finish();
+    if (!warning.empty()) fmt::print("  warning: {}\n", warning);
+    fmt::print(
+        "  {} unknowns; {} corrections and {} iterations of conjugate gradients on the last level; results in {}\n",
+        solved_.unknowns.back(), solved_.last.corrections, solved_.last.linear_iterations, out_.string());
+    if (dist::ranks() == 1)
+      fmt::print("  a picture of it: {} surface {} --out {}\n", tutorial::in_shell(tutorial::sibling_path("render")),
+                 tutorial::in_shell((out_ / "solution_0.vtu").string()),
+                 tutorial::in_shell((out_ / "solution.png").string()));
+  }
+
+  const std::filesystem::path scene_;
+  const std::filesystem::path out_;
+  const std::filesystem::path checkpoint_;
+  const Choices choices_;
+  tutorial::Report& report_;
+  Stopwatch watch_;
+  std::optional<SceneFile> file_;
+  std::string question_;  ///< by which a checkpoint knows its scene
+  int solved_cells_ = 0;  ///< per unit side, on the level of the checkpoint
+  Hierarchy hierarchy_;
+  dist::NestedOptions options_;
+  dist::NestedReport solved_;
+  std::unique_ptr<dist::NestedLevel> level_;
+};
 
 int fail(const std::string& message, int status) {
   if (dist::rank() == 0) std::fputs((printable(message, 4000) + "\n").c_str(), stderr);  // it cannot throw
@@ -236,7 +284,7 @@ int run(int argc, char** argv) {
     return fail(message, status);
   };
   try {
-    answer(scene, out, choices, report);
+    SceneRun(scene, out, choices, report).answer();
   } catch (const NotConverged& failure) {
     return failed(failure.what(), 3);
   } catch (const Error& error) {
