@@ -43,11 +43,17 @@ struct ShiftedBounds : BoundLimits {
     double low, high;
   };
 
-  /// Makes the bounds of a first correction, whose multiplier estimate is 0.
-  ShiftedBounds(BoundLimits limits)
-      : BoundLimits(std::move(limits)), multiplier_estimate(Eigen::VectorXd::Zero(count())) {}
+  /// Makes the bounds of a first correction, whose multiplier estimate is 0. Throws Error unless all
+  /// vectors have C entries.
+  ShiftedBounds(BoundLimits limits) : ShiftedBounds(limits, Eigen::VectorXd::Zero(limits.count())) {}
   ShiftedBounds(BoundLimits limits, Eigen::VectorXd multipliers)
-      : BoundLimits(std::move(limits)), multiplier_estimate(std::move(multipliers)) {}
+      : BoundLimits(std::move(limits)), multiplier_estimate(std::move(multipliers)) {
+    if (upper.size() != count() || force_limit.size() != count() || multiplier_estimate.size() != count())
+      throw Error(fmt::format(
+          "contact: lower, upper, force_limit and multiplier_estimate have {}, {}, {} and {} entries; accepted: one "
+          "per bound in each",
+          count(), upper.size(), force_limit.size(), multiplier_estimate.size()));
+  }
 
   /// Returns the quantity that `status` prescribes: v where the bound is active, else lambda -
   /// multiplier_estimate.

@@ -163,6 +163,13 @@ TEST(ShiftedBounds, AStartAsksForStatusesThatExist) {
                        "3 statuses; accepted one per bound, 4");
 }
 
+TEST(ShiftedBounds, NeedOneEntryPerBoundInEachVector) {
+  const Eigen::VectorXd two = Eigen::VectorXd::Ones(2), none;
+  for (const BoundLimits& limits : {BoundLimits(two, none), BoundLimits(two, two, none)})
+    test::expect_refused([&] { const ShiftedBounds bounds(limits); }, "accepted: one per bound in each");
+  test::expect_refused([&] { const ShiftedBounds bounds(BoundLimits(two), none); }, "have 2, 2, 2 and 0 entries");
+}
+
 /// A 1-D obstacle problem on n points, like the limit problem on Sigma: the case where a cold start takes O(n) steps.
 Box obstacle(int n) {
   Box r{Eigen::MatrixXd::Zero(n, n), {}, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Constant(n, infinity)};
