@@ -50,8 +50,15 @@ std::string said_by(int rank, std::string text) {
 }  // namespace
 
 Session::Session() {
+  // Without this argument PETSc reads options from .petscrc and petscrc of the current folder. They
+  // may name files that are written, and a library that is loaded, which runs its code.
+  static char program[] = "antilock";
+  static char skip[] = "-skip_petscrc";
+  static char* arguments[] = {program, skip, nullptr};  // PETSc keeps the pointer
+  int count = 2;
+  char** given = arguments;
   ok(PetscOptionsInsertString(nullptr, defaults));
-  ok(PetscInitializeNoArguments());  // reads PETSC_OPTIONS over them
+  ok(PetscInitialize(&count, &given, nullptr, nullptr));  // reads PETSC_OPTIONS over them
   ok(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
 }
 

@@ -244,6 +244,21 @@ TEST(PetscScene, AKilledRunLeavesACheckpointFromWhichAnotherStarts) {
   EXPECT_NEAR(runs.summary("results")["energy"].get<double>(), runs.summary("whole")["energy"].get<double>(), 1e-10);
 }
 
+// An option of PETSc may write files and load a library. A folder of examples may hold such options.
+TEST(PetscScene, ReadsNoOptionsFromTheFolderInWhichItIsStarted) {
+  const Runs runs(scene_text("petsc", "structured", "P1", 16));
+  for (const std::string name : {".petscrc", "petscrc"}) {
+    const std::string marker = "marker_of" + name;
+    std::ofstream(runs.folder / name) << "-ksp_view ascii:" << marker << "\n";
+    for (const int ranks : {0, 2}) {
+      const std::string start = "cd " + in_shell(runs.folder.path().string()) + " && ";
+      EXPECT_EQ(std::system((start + runs.command(ranks, "results")).c_str()), 0) << contents(runs.folder / "err");
+      EXPECT_FALSE(fs::exists(runs.folder / marker)) << ranks;
+    }
+    fs::remove(runs.folder / name);
+  }
+}
+
 TEST(PetscScene, ACheckpointOfAnotherSceneOrADamagedOneIsRefused) {
   const Runs runs(scene_text("petsc", "structured", "P1", 64));
   const fs::path checkpoint = runs.results("results").string() + ".checkpoint";
