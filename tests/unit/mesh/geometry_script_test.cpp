@@ -408,6 +408,19 @@ TEST(GeometryScript, WithASyntaxErrorLeavesNothingForTheNextOne) {
     }
 }
 
+// gmsh's reader keeps the sphere's address, and the end of a session frees the sphere.
+TEST(GeometryScript, LeavesNeitherASphereNorAKernelToTheNextOne) {
+  const auto drawn = boxes_of({"body.geo", geometry_script(built_in)});
+  const std::string sphere = "Sphere(100) = {1, 2};\n", on_it = "Point(50) = {0, 0, 0};\n";
+  for (const std::string& left : {sphere, sphere + on_it, std::string("SetFactory(\"OpenCASCADE\");\n")}) {
+    const Geometry good{"body.geo", geometry_script(built_in + left)};
+    const Geometry bad{"bad.geo", geometry_script(built_in + left + "Line(1) = {1};")};
+    for (int twice = 0; twice < 2; ++twice) EXPECT_EQ(boxes_of(good), drawn) << left;
+    EXPECT_THROW(boxes_of(bad), Error) << left;
+    EXPECT_EQ(boxes_of({"body.geo", geometry_script(built_in)}), drawn) << left;
+  }
+}
+
 TEST(GeometryScript, OfABrepIsNotNeededSinceItIsDataWhateverItHolds) {
   const TemporaryFolder folder;
   const std::string file = (folder / "body.brep").string(), marker = (folder / "marker").string();

@@ -20,6 +20,11 @@
 namespace antilock {
 namespace {
 
+/// Resets what gmsh's reader of scripts keeps beyond the end of a session: the kernel, and the sphere
+/// on which Sphere(1) = {centre, point}; puts all later points. The end of a session frees the
+/// sphere, and the reader keeps its address.
+constexpr auto afresh = "SetFactory(\"Built-in\"); Euclidian Coordinates; ";
+
 /// Whether the program had loaded gmsh itself before the first session.
 bool loaded_before_us = false;
 
@@ -222,13 +227,14 @@ void GmshSession::read(const Geometry& geometry) {
     call<decltype(gmshModelOccSynchronize)>("gmshModelOccSynchronize");
     return;
   }
-  const MemoryFile script(geometry.script);
+  const MemoryFile script(afresh + geometry.script + afresh + "\n");
   try {
     call<decltype(gmshMerge)>("gmshMerge", script.path().c_str());
   } catch (const MeshError& error) {
     // gmsh's scanner keeps the rest of the line at fault, and would put it before the next script: it is read off here
     set("General.AbortOnError", 0);
     call<decltype(gmshMerge)>("gmshMerge", MemoryFile("\n").path().c_str());
+    call<decltype(gmshMerge)>("gmshMerge", MemoryFile(std::string(afresh) + "\n").path().c_str());
     std::string what = error.what();
     if (const auto at = what.find(script.path()); at != what.npos)
       what.replace(at, script.path().size(), geometry.file);
