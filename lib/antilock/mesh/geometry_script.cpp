@@ -139,6 +139,7 @@ struct Token {
   std::string text;
   int line;
   bool first = false;       // of a statement
+  bool open_line = false;   // a comment behind it begins on its line and ends in another part
   std::size_t partner = 0;  // of a bracket: its other half
 
   bool is(std::string_view wanted) const { return kind != Kind::text && text == wanted; }
@@ -164,7 +165,11 @@ class Scanner {
 
   std::vector<Token> tokens() {
     std::vector<Token> all;
-    while (skip_blanks()) {
+    for (;;) {
+      const std::size_t from = at_, start = line_start_;
+      const bool more = skip_blanks();
+      if (!all.empty()) all.back().open_line = ends_elsewhere(from, start);
+      if (!more) break;
       const int line = line_;
       const auto [kind, length] = next();
       std::string taken(text_.substr(at_, length));
@@ -181,6 +186,7 @@ class Scanner {
   void advance(std::size_t length) {
     const std::string_view passed = text_.substr(at_, length);
     line_ += static_cast<int>(std::count(passed.begin(), passed.end(), '\n'));
+    if (const auto last = passed.rfind('\n'); last != passed.npos) line_start_ = at_ + last + 1;
     at_ += length;
   }
   /// Behind `closing`, which is looked for from `from` on. Throws Error where it is missing.
@@ -188,6 +194,27 @@ class Scanner {
     const std::size_t end = text_.find(closing, at_ + from);
     if (end == text_.npos) refuse(line_, name, fmt::format("has no end; accepted: {} behind it", closing));
     return end + closing.size() - at_;
+  }
+
+  /// Whether a comment between `from` and the end of its line, which begins at `start`, is open where
+  /// gmsh may end a part of the text: at a line feed, at a carriage return, and behind 8192 signs.
+  /// From `from` to the place that is reached there are blanks and comments alone.
+  bool ends_elsewhere(std::size_t from, std::size_t start) const {
+    constexpr std::size_t longest = 4000;
+    for (std::size_t at = from; at < at_ && text_[at] != '\n';) {
+      if (text_[at] != '/') {
+        ++at;
+        continue;
+      }
+      const bool block = text_[at + 1] == '*';
+      const std::size_t line_end = std::min(text_.find('\n', at), text_.size());
+      const std::size_t end = block ? text_.find("*/", at + 2) + 2 : line_end;
+      const std::size_t part = std::min(text_.find_first_of("\n\r", at), text_.size());
+      const bool split = part + 1 < end;  // "\r\n" behind // ends the line
+      if (split || end - start > longest) return true;
+      at = end;
+    }
+    return false;
   }
 
   /// Behind blanks and comments; whether anything follows.
@@ -246,7 +273,7 @@ class Scanner {
   }
 
   std::string_view text_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0, line_start_ = 0;
   int line_ = 1;
 };
 
@@ -334,8 +361,11 @@ class Rewriter {
   }
 
   /// gmsh reads line by line, and a loop returns to the line behind its header: statements on the
-  /// header's line are run once, and those behind EndFor each time.
+  /// header's line are run once, and those behind EndFor each time. A comment there that does not
+  /// end with the line is read only once, or together with the beginning of the loop.
   void nothing_behind(std::size_t last, const Token& word) const {
+    if (tokens_[last].open_line)
+      refuse(tokens_[last].line, word.text, "accepted: no comment behind it that goes on beyond the line");
     if (last + 1 < tokens_.size() && tokens_[last + 1].line == tokens_[last].line)
       refuse(tokens_[last].line, word.text, "accepted: a new line behind it");
   }

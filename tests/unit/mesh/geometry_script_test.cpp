@@ -312,6 +312,17 @@ TEST(GeometryScript, RefusesWhatGmshReadsInItsOwnWay) {
   expect_refused("x = 0;\nFor i In {1:3}\nx += 1;\nEndFor x += 1;", 4, "EndFor");
   expect_refused("For i\n", 1, "For");
   EXPECT_EQ(refusal("For i In {1:3} // thrice\nx = i;\nEndFor // done"), "");
+  // comments behind a loop's header or its end that are not over with the line
+  const std::string body = "\nx = i;\nEndFor", tail = "\nx = 1;";
+  for (const std::string& comment :
+       {std::string("/*\nx = 1; // */"), std::string("/* a */ /* b\n */"), std::string("// a \r x = 1;"),
+        std::string("/* \r */"), "// " + std::string(9000, ' ') + "x = 1;"}) {
+    expect_refused("\nFor i In {1:3} " + comment + body, 2, "For");
+    expect_refused("For (1:3) " + comment + "\nx = 1;\nEndFor", 1, "For");
+    expect_refused("For i In {1:3}" + body + " " + comment + tail, 3, "EndFor");
+    EXPECT_EQ(refusal("For i In {1:3}" + body + "\n" + comment + tail), "") << comment;
+  }
+  EXPECT_EQ(refusal("For i In {1:3} /* thrice */ // \r\n/*\n*/\r\nx = i;\r\nEndFor // done"), "");
   expect_refused("DefineConstant[ a = {1, Name \"x\"},\nb = {2, Name \"x\"} ];", 2, "\"x\"");
   expect_refused("DefineConstant[ a = {1, Name \"x\"} ];\nDefineConstant[ b = {2, Name 'x'} ];", 2, "'x'");
   expect_refused("x = Rand(1);", 1, "Rand");
