@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <thread>
 
+#include "antilock/mesh/detail/gmsh_session.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "support/scenes.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace antilock::test::mesh_test::gmsh_in_a_process_test {
 
@@ -72,6 +74,23 @@ TEST_F(GmshInAProcess, LeavesTheLocaleAndTheEnvironment) {
   }
   ::unsetenv("PYTHONPATH");
   std::setlocale(LC_ALL, before.c_str());
+}
+
+// FLTK, with which gmsh draws its windows, writes preferences, and the end of gmsh removes .gmsh-tmp.
+TEST_F(GmshInAProcess, ChangesNothingInTheHome) {
+  const TemporaryFolder home;
+  std::ofstream(home / ".gmsh-tmp") << "the user's";
+  const char* const before = std::getenv("HOME");
+  const std::string old = before == nullptr ? "" : before;
+  ::setenv("HOME", home.path().c_str(), 1);
+  for (int twice = 0; twice < 2; ++twice) {
+    const GmshSession session;
+    EXPECT_EQ(std::string(std::getenv("HOME")), home.path().string());
+  }
+  EXPECT_EQ(contents(home / ".gmsh-tmp"), "the user's");
+  EXPECT_EQ(home.file_count(), 1);
+  ::setenv("HOME", old.c_str(), 1);
+  if (before == nullptr) ::unsetenv("HOME");
 }
 
 // The same mesh where the numbers of the process have a decimal comma; where no such locale is installed, as before.

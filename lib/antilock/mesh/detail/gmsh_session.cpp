@@ -57,26 +57,41 @@ locale_t use_decimal_points() {
   return ::uselocale(plain);
 }
 
-/// While it exists, gmsh may do to the process what its initialisation does: it takes the locale of the environment
-/// for the whole process and adds its folder to PYTHONPATH. Both are put back at the end.
+/// A variable of the environment, which the destructor sets back.
+class Variable {
+ public:
+  explicit Variable(const char* name) : name_(name) {
+    if (const char* value = std::getenv(name)) value_ = value;
+  }
+  ~Variable() {
+    if (value_)
+      ::setenv(name_, value_->c_str(), /*overwrite*/ 1);
+    else
+      ::unsetenv(name_);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> value_;
+};
+
+/// While it exists, gmsh may do to the process what its initialisation does: it takes the locale of
+/// the environment for the whole process and adds its folder to PYTHONPATH. Both are put back at the
+/// end. gmsh and FLTK find no home: in it FLTK would write .fltk/fltk.org/fltk.prefs, and the end of
+/// a session would remove .gmsh-tmp. FLTK 1.3 also writes /etc/fltk where it may, which only root
+/// may; no option prevents it.
 class Unchanged {
  public:
-  Unchanged() {
-    if (const char* path = std::getenv("PYTHONPATH")) python_path_ = path;
-  }
-  ~Unchanged() {
-    std::setlocale(LC_ALL, locale_.c_str());
-    if (python_path_)
-      ::setenv("PYTHONPATH", python_path_->c_str(), /*overwrite*/ 1);
-    else
-      ::unsetenv("PYTHONPATH");
-  }
+  Unchanged() { ::setenv("HOME", "/dev/null", /*overwrite*/ 1); }
+  ~Unchanged() { std::setlocale(LC_ALL, locale_.c_str()); }
   Unchanged(const Unchanged&) = delete;
   Unchanged& operator=(const Unchanged&) = delete;
 
  private:
   std::string locale_ = std::setlocale(LC_ALL, nullptr);
-  std::optional<std::string> python_path_;
+  Variable home_{"HOME"}, python_path_{"PYTHONPATH"};
 };
 
 /// A call in a destructor: nothing is thrown where it fails.
