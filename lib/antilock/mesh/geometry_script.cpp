@@ -669,6 +669,8 @@ std::vector<std::string> geometry_script_commands() {
   return all;
 }
 
+std::vector<std::string> geometry_script_options() { return {geometry_options.begin(), geometry_options.end()}; }
+
 std::string geometry_script(const std::string& text) {
   std::vector<Token> tokens = Scanner(text).tokens();
   find_structure(tokens);

@@ -1,5 +1,6 @@
 // What gmsh is given of a .geo file (mesh/geometry_script.hpp): all that draws, and nothing that
 // reads, writes or runs.
+#include <dlfcn.h>
 #include <gmshc.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -22,6 +23,40 @@ void expect_refused(const std::string& script, int line, const std::string& name
   EXPECT_NE(why.find("accepted: "), std::string::npos) << why;
   EXPECT_EQ(why.find('\n'), std::string::npos) << why;
 }
+
+/// gmsh as a program that uses it itself has it, until the end of its scope.
+class GmshInitialized {
+ public:
+  GmshInitialized() {
+    int failed = 0;
+#if GMSH_API_VERSION_MINOR < 9
+    function<decltype(gmshInitialize)>("gmshInitialize")(0, nullptr, 0, &failed);
+#else
+    function<decltype(gmshInitialize)>("gmshInitialize")(0, nullptr, 0, 0, &failed);
+#endif
+    function<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber")("General.Terminal", 0, &failed);
+    function<decltype(gmshModelAdd)>("gmshModelAdd")("mine", &failed);
+  }
+  ~GmshInitialized() {
+    int failed = 0;
+    function<decltype(gmshFinalize)>("gmshFinalize")(&failed);
+  }
+  GmshInitialized(const GmshInitialized&) = delete;
+  GmshInitialized& operator=(const GmshInitialized&) = delete;
+
+  double number(const char* option) const {
+    double value = 0;
+    int failed = 0;
+    function<decltype(gmshOptionGetNumber)>("gmshOptionGetNumber")(option, &value, &failed);
+    return value;
+  }
+
+ private:
+  template <class Function>
+  static Function* function(const char* name) {
+    return reinterpret_cast<Function*>(dlsym(dlopen(ANTILOCK_GMSH_LIBRARY, RTLD_LAZY | RTLD_LOCAL), name));
+  }
+};
 
 /// The words of a script, one blank between two.
 std::string words(const std::string& script) {
@@ -429,6 +464,23 @@ TEST(GeometryScript, LeavesNeitherASphereNorAKernelToTheNextOne) {
     for (int twice = 0; twice < 2; ++twice) EXPECT_EQ(boxes_of(good), drawn) << left;
     EXPECT_THROW(boxes_of(bad), Error) << left;
     EXPECT_EQ(boxes_of({"body.geo", geometry_script(built_in)}), drawn) << left;
+  }
+}
+
+// gmsh keeps variables and options beyond the end of a model.
+TEST(GeometryScript, LeavesNeitherVariablesNorOptionsToTheNextOne) {
+  const std::string constant = built_in + "DefineConstant[ a = {0.25, Name \"a\"} ];\nPoint(90) = {3 + a, 0, 0};\n" +
+                               "l[] += {1};\nPoint(91) = {3, #l[], 0};\nLine(90) = {90, 91};\n";
+  const Geometry geometry{"constant.geo", geometry_script(constant)};
+  const Geometry other{"other.geo",
+                       geometry_script(built_in + "b = 7;\nc[] = {1, 2, 3};\nGeometry.Tolerance = 0.5;\n")};
+  const auto drawn = boxes_of(geometry);
+  const GmshInitialized caller;  // the sessions below are within that of their caller
+  const double before = caller.number("Geometry.Tolerance");
+  for (int twice = 0; twice < 2; ++twice) {
+    boxes_of(other);
+    EXPECT_EQ(caller.number("Geometry.Tolerance"), before);
+    EXPECT_EQ(boxes_of(geometry), drawn);
   }
 }
 

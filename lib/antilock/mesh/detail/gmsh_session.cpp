@@ -15,15 +15,16 @@
 #include <utility>
 
 #include "antilock/core/error.hpp"
+#include "antilock/mesh/geometry_script.hpp"
 #include "antilock/mesh/memory_file.hpp"
 
 namespace antilock {
 namespace {
 
-/// Resets what gmsh's reader of scripts keeps beyond the end of a session: the kernel, and the sphere
-/// on which Sphere(1) = {centre, point}; puts all later points. The end of a session frees the
-/// sphere, and the reader keeps its address.
-constexpr auto afresh = "SetFactory(\"Built-in\"); Euclidian Coordinates; ";
+/// Resets what gmsh's reader of scripts keeps from one script to the next: the variables, which a
+/// DefineConstant does not change, the kernel, and the sphere on which Sphere(1) = {centre, point};
+/// puts all later points. The end of a session frees the sphere, and the reader keeps its address.
+constexpr auto afresh = "Delete Variables; SetFactory(\"Built-in\"); Euclidian Coordinates; ";
 
 /// Whether the program had loaded gmsh itself before the first session.
 bool loaded_before_us = false;
@@ -151,7 +152,7 @@ GmshSession::GmshSession() : callers_model_(current_model()) {
 
 GmshSession::~GmshSession() {
   if (!callers_model_) {
-    try_call<decltype(gmshFinalize)>("gmshFinalize");
+    try_call<decltype(gmshFinalize)>("gmshFinalize");  // which resets the options
     return;
   }
   try_call<decltype(gmshModelRemove)>("gmshModelRemove");
@@ -188,6 +189,16 @@ void GmshSession::set(const char* option, double value) {
   call<decltype(gmshOptionGetNumber)>("gmshOptionGetNumber", option, &before);
   call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", option, value);
   callers_options_.emplace_back(option, before);
+}
+
+void GmshSession::keep_geometry_options() {
+  for (const std::string& name : geometry_script_options()) {
+    const std::string option = "Geometry." + name;
+    int unknown = 0;  // to an older gmsh
+    double before = 0;
+    reinterpret_cast<decltype(gmshOptionGetNumber)*>(symbol("gmshOptionGetNumber"))(option.c_str(), &before, &unknown);
+    if (unknown == 0) callers_options_.emplace_back(option, before);
+  }
 }
 
 int GmshSession::add_point(double x, double y, double size) const {
@@ -242,6 +253,7 @@ void GmshSession::read(const Geometry& geometry) {
     call<decltype(gmshModelOccSynchronize)>("gmshModelOccSynchronize");
     return;
   }
+  keep_geometry_options();
   const MemoryFile script(afresh + geometry.script + afresh + "\n");
   try {
     call<decltype(gmshMerge)>("gmshMerge", script.path().c_str());

@@ -19,7 +19,7 @@ namespace antilock {
 /// gmsh has one model and one set of options per process. Therefore a session of another thread
 /// waits until this one has ended. The process keeps its locale and its environment. If the program
 /// uses gmsh itself, from this thread, its models and options are the same after the session as
-/// before.
+/// before. The variables of its scripts are deleted where a geometry is read.
 class GmshSession {
  public:
   /// Throws Error where gmsh's library cannot be loaded.
@@ -73,6 +73,8 @@ class GmshSession {
   };
 
   void read(const Geometry& geometry);
+  /// Keeps the numbers of the options that a script may change, for the end of the session.
+  void keep_geometry_options();
   static void* symbol(const char* name);
   /// Returns the name of the current model of gmsh; empty where gmsh is not initialised.
   static std::optional<std::string> current_model();
