@@ -1,5 +1,9 @@
 // Every scene that cannot be asked: exit status 2, one line on standard error that names file and key, nothing written.
 #include "antilock/runner/scene_mesh.hpp"
+
+#include <sys/stat.h>
+#include <sys/wait.h>
+
 #include "antilock/runner/solve_scene.hpp"
 #include "scenes/runner.hpp"
 #include "support/scenes.hpp"
@@ -346,6 +350,9 @@ TEST(BadCommandLine, DevicesAreNoFiles) {
   std::ofstream(folder / "scene.toml") << load + "[mesh]\nkind = \"file\"\nfile = \"/dev/zero\"\n";
   const std::string path = (folder / "scene.toml").string();
   expect_one_line(run_scene(in_shell(path) + " --out " + in_shell(folder / "r"), folder), path + ": mesh.file: ");
+  ASSERT_EQ(::mkfifo((folder / "pipe.toml").c_str(), 0600), 0);
+  const std::string pipe = (folder / "pipe.toml").string();
+  expect_one_line(run_scene(in_shell(pipe) + " --out " + in_shell(folder / "r"), folder), pipe + ": file: ");
   EXPECT_FALSE(std::filesystem::exists(folder / "r"));
 }
 

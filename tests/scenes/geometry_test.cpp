@@ -118,8 +118,10 @@ TEST(Geometry, ThatIsNotThereOrNoFileIsRefused) {
   std::filesystem::create_directory(beside.folder / "folder.geo");
   ASSERT_EQ(::mkfifo((beside.folder / "pipe.geo").c_str(), 0600), 0);
   std::filesystem::create_symlink("nowhere", beside.folder / "link.geo");
-  for (const std::string name : {"absent.geo", "absent.brep", "folder.geo", "pipe.geo", "link.geo"})
-    expect_no_answer(beside.run("geometry = \"" + name + "\"\n"), name + ": there is no such file");
+  for (const std::string name : {"absent.geo", "absent.brep", "link.geo"})
+    expect_no_answer(beside.run("geometry = \"" + name + "\"\n"), name + ": cannot be opened");
+  for (const std::string name : {"folder.geo", "pipe.geo"})
+    expect_no_answer(beside.run("geometry = \"" + name + "\"\n"), name + ": is a folder, a device or a pipe");
 }
 
 TEST(Geometry, GoesWithAMeshFileAndOneProcess) {

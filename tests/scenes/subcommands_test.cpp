@@ -308,6 +308,9 @@ TEST_F(Subcommand, RefusesInOneLine) {
          "accepted: a load whose energy is a number"},
         {"lockcheck " + one + " " + one + " " + one + " " + one + " --fixed " + file("one.csv", "unknown,value\n1,0\n"),
          "one.csv: line 2: unknown 1; accepted: whole numbers from 0 to 0"},
+        {"lockcheck /dev/zero " + one + " " + one, "/dev/zero: is a folder, a device or a pipe"},
+        {"lockcheck " + one + " " + one + " " + one + " " + one + " --fixed /dev/zero",
+         "/dev/zero: is a folder, a device or a pipe"},
         {"estimate " + good + " " + points + " " + points, "points.csv"}}) {
     const Outcome told = ask(arguments);
     EXPECT_EQ(told.status, 2) << arguments;

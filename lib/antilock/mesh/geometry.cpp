@@ -1,19 +1,20 @@
 #include "antilock/mesh/geometry.hpp"
 
-#include <fstream>
+#include <cstdio>
+#include <istream>
 
 #include "antilock/core/error.hpp"
+#include "antilock/core/input_file.hpp"
 #include "antilock/mesh/geometry_script.hpp"
 
 namespace antilock {
 namespace {
 
-std::string text_of(const std::filesystem::path& file) {
+std::string text_of(std::istream& in) {
   constexpr std::streamsize most = 4 << 20;
-  std::ifstream in(file, std::ios::binary);
   std::string text(most + 1, '\0');
-  if (in) in.read(text.data(), most + 1);
-  if (in.bad() || !in.is_open()) throw Error("cannot be read; accepted: a geometry script of gmsh");
+  in.read(text.data(), most + 1);
+  if (in.bad()) throw Error("cannot be read; accepted: a geometry script of gmsh");
   if (in.gcount() > most) throw Error("is larger than 4 MB; accepted: a geometry script of gmsh");
   text.resize(static_cast<std::size_t>(in.gcount()));
   return text;
@@ -23,14 +24,14 @@ std::string text_of(const std::filesystem::path& file) {
 
 Geometry read_geometry(const std::filesystem::path& file) {
   const std::filesystem::path kind = file.extension();
+  const std::string name = printable(file.string(), 1000), accepted = "a .geo or .brep file";
+  if (kind != ".geo" && kind != ".brep") throw Error(name + ": is neither .geo nor .brep; accepted: one of the two");
+  const auto in = open_file(file, name, accepted);
+  if (in->peek() == EOF) throw Error(name + ": is empty; accepted: " + accepted);
   try {
-    if (kind != ".geo" && kind != ".brep") throw Error("is neither .geo nor .brep; accepted: one of the two");
-    // the end of a pipe or of a device would never come
-    if (std::error_code ignored; !std::filesystem::is_regular_file(file, ignored))
-      throw Error("there is no such file; accepted: a .geo or .brep file");
-    return {file.string(), kind == ".geo" ? geometry_script(text_of(file)) : ""};
+    return {file.string(), kind == ".geo" ? geometry_script(text_of(*in)) : ""};
   } catch (const Error& error) {
-    throw Error(printable(file.string(), 1000) + ": " + error.what());
+    throw Error(name + ": " + error.what());
   }
 }
 

@@ -8,8 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
+#include <istream>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -17,6 +16,7 @@
 #include <unordered_set>
 
 #include "antilock/core/error.hpp"
+#include "antilock/core/input_file.hpp"
 #include "antilock/core/number.hpp"
 #include "antilock/core/plain_text.hpp"
 
@@ -544,12 +544,7 @@ TriangleMesh read_msh(std::istream& in, const std::string& name, const ExtraGrou
 }
 
 TriangleMesh read_msh(const std::string& path, const ExtraGroups& more, std::vector<int>* part) {
-  std::error_code ignored;  // a folder, or a device that never ends
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-    throw Error(path + ": is a folder or a device; accepted: a MSH file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path + ": cannot be opened; accepted: a MSH file, 2.2 or 4.1, ASCII");
-  return read_msh(in, path, more, part);
+  return read_msh(*open_file(path, path, "a MSH file, 2.2 or 4.1, ASCII"), path, more, part);
 }
 
 }  // namespace antilock

@@ -60,7 +60,8 @@ MeshArrays kept_mesh(const std::string& name, Make&& make) {
   std::array<std::uint64_t, 2> counts{};
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(path, error);
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in;
+  if (!error) in.open(path, std::ios::binary);  // a pipe has no size, and opening it may never end
   const auto get = [&](auto* data, std::uint64_t bytes) -> bool {
     return !!in.read(reinterpret_cast<char*>(data), static_cast<std::streamsize>(bytes));
   };

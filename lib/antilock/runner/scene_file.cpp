@@ -5,12 +5,12 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <sstream>
 #include <variant>
 
+#include "antilock/core/input_file.hpp"
 #include "antilock/core/number.hpp"
 #include "antilock/core/plain_text.hpp"
 #include "antilock/measure/point_values.hpp"
@@ -126,17 +126,18 @@ class Section {
 /// The whole file, up to a megabyte: a scene is a page, and some files never end.
 std::string read_text(const std::filesystem::path& path, const std::string& name) {
   constexpr std::streamsize most = 1 << 20;
-  const std::string accepted = "; accepted: a scene file in TOML";
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-    throw InputError(name + ": file: is a folder or a device" + accepted);
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(name + ": file: cannot be opened" + accepted);
+  const std::string accepted = "a scene file in TOML";
+  std::unique_ptr<std::istream> in;
+  try {
+    in = open_file(path, name + ": file", accepted);
+  } catch (const Error& error) {
+    throw InputError(error.what());
+  }
   std::string text(most + 1, '\0');
-  in.read(text.data(), most + 1);
-  if (in.bad()) throw InputError(name + ": file: cannot be read" + accepted);
-  if (in.gcount() > most) throw InputError(name + ": file: is larger than 1 MB" + accepted);
-  text.resize(static_cast<std::size_t>(in.gcount()));
+  in->read(text.data(), most + 1);
+  if (in->bad()) throw InputError(name + ": file: cannot be read; accepted: " + accepted);
+  if (in->gcount() > most) throw InputError(name + ": file: is larger than 1 MB; accepted: " + accepted);
+  text.resize(static_cast<std::size_t>(in->gcount()));
   return text;
 }
 

@@ -38,8 +38,10 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& question) {
-  std::ifstream in(path);
-  if (!in)
+  std::error_code ignored;
+  std::ifstream in;
+  if (std::filesystem::is_regular_file(path, ignored)) in.open(path);
+  if (!in.is_open())
     throw Error(path.string() + ": --restart: there is no checkpoint; accepted: after a run to this folder was ended");
   Checkpoint checkpoint;
   auto& [asked, cells, set] = checkpoint;

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <istream>
 #include <iterator>
 
 #include "antilock/core/error.hpp"
+#include "antilock/core/input_file.hpp"
 #include "antilock/core/number.hpp"
 #include "antilock/core/plain_text.hpp"
 
@@ -112,9 +113,7 @@ CsvTable read_csv_table(std::istream& in, const std::string& name, const std::ve
 }
 
 CsvTable read_csv_table(const std::string& path, const std::vector<std::string>& header, const CsvForm& form) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path + ": cannot be opened; accepted: a CSV file");
-  return read_csv_table(in, path, header, form);
+  return read_csv_table(*open_file(path, path, "a CSV file"), path, header, form);
 }
 
 Eigen::MatrixXd read_csv(std::istream& in, const std::string& name, const std::vector<std::string>& header) {

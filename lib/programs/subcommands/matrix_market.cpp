@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <memory>
 #include <sstream>
 #include <vector>
 
 #include "antilock/core/error.hpp"
+#include "antilock/core/input_file.hpp"
 #include "antilock/core/plain_text.hpp"
 
 namespace antilock::subcommands {
@@ -17,11 +18,9 @@ namespace {
 /// The lines of a file that are no comments, and where they stand.
 class Lines {
  public:
-  explicit Lines(const std::string& path) : path_(path), in_(path) {
-    if (!in_) throw Error(path + ": cannot be opened; accepted: a Matrix Market file");
-  }
+  explicit Lines(const std::string& path) : path_(path), in_(open_file(path, path, "a Matrix Market file")) {}
   bool next(std::istringstream& words) {
-    for (std::string line; std::getline(in_, line);) {
+    for (std::string line; std::getline(*in_, line);) {
       if (++number_ == 1) line = plain_text(line, path_);
       if (line.empty() || (number_ > 1 && line[0] == '%') || line.find_first_not_of(" \t\r") == std::string::npos)
         continue;
@@ -37,7 +36,7 @@ class Lines {
 
  private:
   std::string path_;
-  std::ifstream in_;
+  std::unique_ptr<std::istream> in_;
   int number_ = 0;
 };
 

@@ -514,8 +514,11 @@ TEST(GeometryScript, IsOfAFileGeoOrBrep) {
   std::ofstream(folder / "body.geo.gz") << "";
   std::filesystem::create_directory(folder / "folder.geo");
   ASSERT_EQ(::mkfifo((folder / "pipe.geo").c_str(), 0600), 0);
+  std::ofstream(folder / "empty.brep");
+  std::filesystem::create_symlink("/proc/kmsg", folder / "kernel.brep");
   std::ofstream(folder / "large.geo") << std::string((4 << 20) + 1, ' ');
-  for (const std::string name : {"body.step", "body.geo.gz", "folder.geo", "pipe.geo", "large.geo", "absent.geo"})
+  for (const std::string name :
+       {"body.step", "body.geo.gz", "folder.geo", "pipe.geo", "large.geo", "absent.geo", "empty.brep", "kernel.brep"})
     EXPECT_THROW(read_geometry(folder / name), Error) << name;
 }
 
