@@ -21,6 +21,11 @@ void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.name; }  // N
 
 const std::string load = "[load]\nf = \"1\"\n", mesh = "[mesh]\nkind = \"structured\"\ncells = 8\n";
 
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
 std::string with_load(const std::string& f) { return "[load]\nf = " + f + "\n" + mesh; }
 std::string with_layer(const std::string& lines) { return load + "[layer]\n" + lines + "\n" + mesh; }
 std::string with_contact(const std::string& lines) { return load + "[contact]\n" + lines + "\n" + mesh; }
@@ -43,6 +48,11 @@ const std::vector<BadScene> bad_scenes = {
     {"SyntaxJson", "syntax", "{\"load\": {\"f\": \"1\"}}"},
     {"SyntaxTildeInAHeader", "syntax",
      "[~load]\nf = \"1\"\n"},  // found by the fuzzer: an assertion of toml++ built for debugging
+    {"SyntaxKeyOfManyParts", "syntax", "a" + repeated(".a", 200000) + " = 1\n" + load + mesh},
+    {"SyntaxKeyOfManyQuotedParts", "syntax", "\"a\"" + repeated(" . 'a'", 65) + " = 1\n" + load + mesh},
+    {"SyntaxHeaderOfManyParts", "syntax", load + mesh + "[a" + repeated(".a", 200000) + "]\n"},
+    {"SyntaxDeepArray", "syntax", "a = " + repeated("[", 65) + repeated("]", 65) + "\n" + load + mesh},
+    {"SyntaxDeepTable", "syntax", "a = " + repeated("{a=", 65) + "1" + repeated("}", 65) + "\n" + load + mesh},
     {"LargerThanAMegabyte", "file", "#" + std::string(1100000, 'x')},
     // sections
     {"NoLoad", "load", mesh},
@@ -197,6 +207,20 @@ TEST_P(BadScenes, AreRefusedInOneLineAndNothingIsWritten) {
 
 INSTANTIATE_TEST_SUITE_P(All, BadScenes, testing::ValuesIn(bad_scenes),
                          [](const auto& info) { return info.param.name; });
+
+// Brackets and dots of strings and comments do not count.
+TEST(BadScenes, ADepthIsRefusedWithItsLine) {
+  const std::string dots = repeated(".", 100), open = repeated("[", 100);
+  const std::string quoted = "title = \"\"\"\\\"\"\" " + open + dots + "\n\"\"\"\"\" # '" + dots + open + "\n" +
+                             "[load]\nf = '10' # \"\n" + mesh;  // seven lines
+  EXPECT_EQ(read_scene(quoted, "s.toml").mesh.cells, 8);
+  const std::string deepest = "a" + repeated(".a", 63) + " = " + repeated("[", 64) + repeated("]", 64) + "\n";
+  test::expect_refused([&] { read_scene(deepest + load + mesh, "s.toml"); }, "s.toml: a: unknown key");
+  test::expect_refused([&] { read_scene(quoted + "b" + repeated(".b", 64) + " = 1\n", "s.toml"); },
+                       "s.toml: syntax: line 8: a key has too many parts; accepted: up to 64 parts between dots");
+  test::expect_refused([&] { read_scene(quoted + "b = '''\n'''''\n" + open, "s.toml"); },
+                       "s.toml: syntax: line 10: is nested too deeply; accepted: up to 64 brackets in each other");
+}
 
 // The file and the key stand first and once, whatever the file is called: here as the message of the refinement begins.
 TEST(BadScenes, TheNameOfTheSceneDoesNotChangeTheMessage) {

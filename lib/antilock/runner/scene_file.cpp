@@ -16,6 +16,7 @@
 #include "antilock/measure/point_values.hpp"
 #include "antilock/runner/expression.hpp"
 #include "antilock/runner/scene_keys.hpp"
+#include "antilock/runner/toml_depth.hpp"
 
 namespace antilock {
 namespace {
@@ -143,6 +144,7 @@ std::string read_text(const std::filesystem::path& path, const std::string& name
 
 toml::table parse(const std::string& text, const std::string& name) {
   plain_text(text, name + ": syntax");  // TOML knows UTF-8 and its byte order mark alone
+  check_toml_depth(text, name);
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
