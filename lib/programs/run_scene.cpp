@@ -199,13 +199,13 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.0, asked.most_seconds));
   line.footer("A scene file is TOML; the text after # is a comment:\n\n" + scene_keys_help() + more_help);
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;
-  if (out->count() == 0) asked.out = std::filesystem::path("results") / scene.stem();
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {
     if (std::ferror(stdout) == 0) report.finish();  // the line of the stage that did not end
     return fail(message, status);
   };
   try {
+    if (out->count() == 0) asked.out = default_results_folder(scene);
     asked.files = result_files(files);  // a name that is none is refused before the work
     answer(scene, asked, report, argv);
   } catch (const NotConverged& failure) {

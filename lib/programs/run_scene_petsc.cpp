@@ -277,13 +277,13 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(0.0, choices.most_seconds));
   line.add_flag("--direct", choices.direct, "MUMPS in place of multigrid: for layers without columns");
   if (const auto status = tutorial::parse(line, argc, argv, dist::rank() > 0)) return *status;
-  if (folder->count() == 0) out = std::filesystem::path("results") / scene.stem();
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {
     if (dist::rank() == 0) report.finish();
     return fail(message, status);
   };
   try {
+    if (folder->count() == 0) out = default_results_folder(scene);
     SceneRun(scene, out, choices, report).answer();
   } catch (const NotConverged& failure) {
     return failed(failure.what(), 3);

@@ -380,6 +380,21 @@ TEST(BadCommandLine, DevicesAreNoFiles) {
   EXPECT_FALSE(std::filesystem::exists(folder / "r"));
 }
 
+// `...toml` without its extension is `..`: the results would go beside the folder results.
+TEST(BadCommandLine, ANameOfASceneThatNamesNoFolder) {
+  const TemporaryFolder folder, log;
+  std::filesystem::create_directory(folder / "at");
+  const std::string in_it = "cd " + in_shell(folder / "at") + " && " + in_shell(RUN_SCENE) + " ";
+  for (const std::string name : {"...toml", "..toml"}) {
+    std::ofstream(folder / "at" / name) << load + mesh;
+    EXPECT_EQ(WEXITSTATUS(std::system((in_it + name + " 2>" + in_shell(log / "err")).c_str())), 2) << name;
+    EXPECT_TRUE(contents(log / "err").starts_with(name + ": --out: ")) << contents(log / "err");
+    EXPECT_EQ(std::system((in_it + name + " --out ../out >/dev/null").c_str()), 0);
+    std::filesystem::remove_all(folder / "out");
+  }
+  EXPECT_EQ(folder.file_count(), 2) << "the two scenes";
+}
+
 TEST(BadCommandLine, ResultsThatCannotBeWritten) {
   const TemporaryFolder folder;
   std::ofstream(folder / "scene.toml") << load << mesh;

@@ -226,6 +226,16 @@ ResultFiles result_files(const std::string& words) {
   return asked;
 }
 
+std::filesystem::path default_results_folder(const std::filesystem::path& scene) {
+  const std::filesystem::path name = scene.stem();
+  if (name.empty() || name == "." || name == "..")
+    throw Error(
+        fmt::format("{}: --out: the name of the scene file without its extension, \"{}\", names no folder of "
+                    "its own; accepted: --out FOLDER, or another name",
+                    printable(scene.string(), 1000), name.string()));
+  return std::filesystem::path("results") / name;
+}
+
 void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Result& result,
                          const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked) {
   const Stopwatch watch;

@@ -62,6 +62,10 @@ using ResultFiles = std::set<std::string>;
 /// name of the option, for any other word and for none.
 ResultFiles result_files(const std::string& words);
 
+/// Returns the folder of the results where none is named: results/NAME for the scene file
+/// NAME.toml. Throws Error where NAME is no name of a folder, as in `...toml`, whose NAME is `..`.
+std::filesystem::path default_results_folder(const std::filesystem::path& scene);
+
 /// Writes the results of a scene file into `folder`: summary.json, solution.csv, contact.csv (for a
 /// scene with contact), mesh.msh (MSH 2.2) and solution.vtu. It writes all requested files or none,
 /// and removes the other files of an earlier run. Gaps and pressures that are negative by round-off
