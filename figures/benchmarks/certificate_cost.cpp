@@ -1,5 +1,6 @@
-// What a certificate costs over the solve that it certifies, and what an adapted mesh saves, all levels paid for: ratios
-// within one run, since machines differ and their ratios hardly do. Each is the ratio of the medians of some repeats.
+// What a certificate costs over the solve that it certifies, and what an adapted mesh saves, all
+// levels paid for: ratios within one run, since machines differ and their ratios hardly do. Each is
+// the ratio of the medians of some repeats.
 //
 // Run: certificate_cost                               1/h = 128, three repeats; half a minute
 // Run: certificate_cost --cells 64 --repeats 1
@@ -65,7 +66,8 @@ void certificate_over_solve(Table& table, int cells, int repeats) {
     Seconds seconds;
     for (int k = 0; k < repeats; ++k)
       seconds.measure(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), mesh);
-    const double solve = median(seconds.solve), flux = median(seconds.flux), strip = median(seconds.strip);
+    const double solve = median(seconds.solve), flux = median(seconds.flux),
+                 strip = median(seconds.strip);
     const std::string at = fmt::format("1/h = {}; epsilon = {:g}", cells, epsilon);
     row(table, "flux and strip over the CR solve; " + at, 0.1, (flux + strip) / solve);
     fmt::print("  the whole certificate over the CR solve: {:.3f}; the solve: {:.3f} s\n",
@@ -79,10 +81,12 @@ void diagnosis_over_solve(Table& table, int cells, int repeats) {
   const Scene scene({paper_load}, StiffLayer{1e-2}, UnilateralContact{});
   Result result{space, assemble(scene, space)};
   std::vector<double> solve, diagnosis;
-  auto of_processor = [last = std::clock()]() mutable {  // a few milliseconds each at 1/h = 32: other programs would
-    const std::clock_t now = std::clock();               // stand in wall seconds
-    return static_cast<double>(now - std::exchange(last, now));
-  };
+  auto of_processor =
+      [last =
+           std::clock()]() mutable {  // a few milliseconds each at 1/h = 32: other programs would
+        const std::clock_t now = std::clock();  // stand in wall seconds
+        return static_cast<double>(now - std::exchange(last, now));
+      };
   for (int k = 0; k < 5 * repeats * (128 / std::min(cells, 128)); ++k) {
     of_processor();
     result.solution = active_set(result.problem);
@@ -94,8 +98,9 @@ void diagnosis_over_solve(Table& table, int cells, int repeats) {
       median(diagnosis) / median(solve));
 }
 
-/// Bump at 3 %: solve_to against a uniform mesh that is proved as good, gmsh's time not counted. The uniform mesh's
-/// seconds are those of 2 `cells`, extrapolated by its unknowns: they grow at least like that.
+/// Bump at 3 %: solve_to against a uniform mesh that is proved as good, gmsh's time not counted.
+/// The uniform mesh's seconds are those of 2 `cells`, extrapolated by its unknowns: they grow at
+/// least like that.
 void adapted_over_uniform(Table& table, int cells, int repeats) {
   constexpr double asked = 3e-2;
   const Scene scene({bump}, StiffLayer{1e-6}, UnilateralContact{});
@@ -111,15 +116,16 @@ void adapted_over_uniform(Table& table, int cells, int repeats) {
     Result result{space, assemble(scene, space)};
     PenalisedCholesky factor(result.problem);
     result.solution = active_set(result.problem, factor);
-    const double relative = certify(scene, result, {.factor = &factor}).relative(Quantity::displacement);
+    const double relative =
+        certify(scene, result, {.factor = &factor}).relative(Quantity::displacement);
     const double times = std::pow(relative / asked, 2);
     uniform.push_back(watch.lap() * times);
     uniform_unknowns = static_cast<int>(space.free_count() * times);
   }
   row(table, "seconds to a proved 3 % of the concentrated load; adapted over uniform", 0.25,
       median(adapted) / median(uniform));
-  fmt::print("  adapted: {} unknowns, {:.2f} s in all; uniform: about {} unknowns, {:.2f} s\n", unknowns,
-             median(adapted), uniform_unknowns, median(uniform));
+  fmt::print("  adapted: {} unknowns, {:.2f} s in all; uniform: about {} unknowns, {:.2f} s\n",
+             unknowns, median(adapted), uniform_unknowns, median(uniform));
 }
 
 }  // namespace

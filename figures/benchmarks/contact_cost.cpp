@@ -1,6 +1,7 @@
-// What contact costs over one unconstrained sparse Cholesky solve of the same mesh: ratios within one run, medians,
-// since machines differ and their ratios hardly do. P1 structured at every size, CR at 1/h = 256; epsilon = 1e-6. The
-// Cholesky solve is measured twice: with CHOLMOD as it comes, and with its loops on one thread, as the solver runs it.
+// What contact costs over one unconstrained sparse Cholesky solve of the same mesh: ratios within
+// one run, medians, since machines differ and their ratios hardly do. P1 structured at every size,
+// CR at 1/h = 256; epsilon = 1e-6. The Cholesky solve is measured twice: with CHOLMOD as it comes,
+// and with its loops on one thread, as the solver runs it.
 //
 // Run: contact_cost --out results/benchmark      two minutes on two cores
 #include <fmt/format.h>
@@ -30,7 +31,8 @@ namespace {
 /// One complete contact solution, and the measuring sticks beside it. Wall seconds.
 struct Run {
   double mesh, space, assembly;  // what stands before the solver
-  double solution;           // the complete contact solution: sum to K, analyse, factor, contact, corrections, report
+  double solution;           // the complete contact solution: sum to K, analyse, factor, contact,
+                             // corrections, report
   double residual;           // A1 u + B' M B u once: what other machines can compare
   SolveSeconds stages;       // of the solution
   CholeskySeconds cholesky;  // the measuring stick
@@ -55,7 +57,8 @@ Run run_once(const std::string& element_name, int cells, double epsilon, bool wi
   run.corrections = solution.counters.corrections;
   run.contact = solution.counters.contact_iterations;
   if (with_sticks) {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(solution.u.size()), strain(problem.m.size());  // its pages are touched
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(solution.u.size()),
+                    strain(problem.m.size());  // its pages are touched
     watch.lap();
     sum.noalias() += problem.a1 * solution.u;
     strain = problem.m.cwiseProduct(problem.b * solution.u);
@@ -79,7 +82,8 @@ double quantile(const std::vector<Run>& runs, double part, const Value& value) {
   for (const Run& run : runs) values.push_back(value(run));
   std::sort(values.begin(), values.end());
   const double place = part * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place), above = std::min(below + 1, values.size() - 1);
+  const auto below = static_cast<std::size_t>(place),
+             above = std::min(below + 1, values.size() - 1);
   return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
@@ -131,17 +135,20 @@ struct Row {
   }
 };
 
-// What was asked for and what was measured: lines on the screen, and targets.csv for figures/benchmark.
+// What was asked for and what was measured: lines on the screen, and targets.csv for
+// figures/benchmark.
 struct Targets {
   std::string csv = "what,asked,measured,met\n";
-  void add(const std::string& what, const std::string& asked, const std::string& measured, bool met) {
+  void add(const std::string& what, const std::string& asked, const std::string& measured,
+           bool met) {
     fmt::print("TARGET {}: {}: {} (asked {})\n", met ? "met   " : "MISSED", what, measured, asked);
     csv += fmt::format("{},{},{},{}\n", what, asked, measured, met ? "yes" : "no");
   }
 };
 
 void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
-  run_once("P1", finest, 1e-6, false);  // first, alone: what a process needs that solves this problem and ends
+  run_once("P1", finest, 1e-6,
+           false);  // first, alone: what a process needs that solves this problem and ends
   const double megabytes = peak_megabytes();
 
   std::vector<Row> rows;
@@ -151,7 +158,8 @@ void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
       rows.push_back({name, n, {}});
       for (int i = 0; i < repeats; ++i) rows.back().runs.push_back(run_once(name, n, 1e-6, true));
       fmt::print("{:>2} 1/h={:<4}", name, n);
-      for (const auto& [column, value] : columns) fmt::print(" {} {:.4g}", column, rows.back().median(value));
+      for (const auto& [column, value] : columns)
+        fmt::print(" {} {:.4g}", column, rows.back().median(value));
       fmt::print("\n");
       std::fflush(stdout);
     }
@@ -176,8 +184,8 @@ void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
   std::vector<Row> p1;
   for (const Row& r : rows) {
     cheap = cheap && r.median(cost) <= (r.cells < 128 ? 1.4 : 1.2);
-    costs += fmt::format("{}{} {}: {} and {:.2f}", costs.empty() ? "" : " / ", r.element, r.cells, r.quartiles(cost),
-                         r.median(alike));
+    costs += fmt::format("{}{} {}: {} and {:.2f}", costs.empty() ? "" : " / ", r.element, r.cells,
+                         r.quartiles(cost), r.median(alike));
     if (r.cells >= std::min(256, finest)) most_outside = std::max(most_outside, r.median(outside));
     if (r.element == "P1") p1.push_back(r);
   }
@@ -186,23 +194,26 @@ void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
   const int unknowns = large.runs.front().unknowns;
   Targets targets;
   targets.add(
-      "contact solution over one unconstrained Cholesky solve at epsilon = 1e-6 (the quartiles) and over the same "
+      "contact solution over one unconstrained Cholesky solve at epsilon = 1e-6 (the quartiles) "
+      "and over the same "
       "with CHOLMOD's loops on one thread",
       "<= 1.4 at 1/h = 64; <= 1.2 from 128 on", costs, cheap);
-  targets.add(fmt::format("contact steps at the finest level; 1/h = 32 to {}; epsilon = 1 to 0", finest), "<= 4",
-              fmt::format("{}", most_steps), most_steps <= 4);
+  targets.add(
+      fmt::format("contact steps at the finest level; 1/h = 32 to {}; epsilon = 1 to 0", finest),
+      "<= 4", fmt::format("{}", most_steps), most_steps <= 4);
   targets.add("seconds outside the factorisation over those in it; 1/h >= 256", "< 1",
               fmt::format("{:.2f}", most_outside), most_outside < 1);
   targets.add(fmt::format("structured mesh at 1/h = {}", large.cells), "well below 1 s",
               fmt::format("{:.3f} s", large_mesh), large_mesh < 0.5);
   if (p1.size() > 1) {
-    const double growth =
-        std::log(large.total() / small.total()) / std::log(1.0 * unknowns / small.runs.front().unknowns);
-    targets.add(fmt::format("seconds grow like a power of the unknowns; 1/h = {} to {}", small.cells, large.cells),
+    const double growth = std::log(large.total() / small.total()) /
+                          std::log(1.0 * unknowns / small.runs.front().unknowns);
+    targets.add(fmt::format("seconds grow like a power of the unknowns; 1/h = {} to {}",
+                            small.cells, large.cells),
                 "<= 1.3", fmt::format("{:.2f}", growth), growth <= 1.3);
   }
-  targets.add(fmt::format("peak memory at {} unknowns", unknowns), "< 1536 MB", fmt::format("{:.0f} MB", megabytes),
-              megabytes < 1536);
+  targets.add(fmt::format("peak memory at {} unknowns", unknowns), "< 1536 MB",
+              fmt::format("{:.0f} MB", megabytes), megabytes < 1536);
   write_file(folder / "targets.csv", [&](std::ostream& out) { out << targets.csv; });
 }
 

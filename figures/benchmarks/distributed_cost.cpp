@@ -1,5 +1,5 @@
-// Measures the cost of the distributed solver and of the serial one on the structured mesh. Each run
-// prints one line of numbers.
+// Measures the cost of the distributed solver and of the serial one on the structured mesh. Each
+// run prints one line of numbers.
 //
 // Run:    mpiexec -n 2 distributed_cost --cells 1024        PETSc, on two ranks
 //         distributed_cost --cells 1024 --serial            the library's own factor, in this process
@@ -44,34 +44,41 @@ void serial(const Scene& scene, const Element& element, int cells) {
   const double assemble_seconds = watch.lap();
   const double before = cpu_seconds();
   const Solution solution = active_set(problem);
-  fmt::print("serial,{},1,{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},0,{},0,{},{:.0f},{:.1e},{:.3g}\n", element.name(),
-             problem.free_count(), mesh_seconds, assemble_seconds, solution.seconds.analyse + solution.seconds.factor,
-             solution.seconds.contact + solution.seconds.solve, cpu_seconds() - before, solution.counters.corrections,
-             solution.counters.contact_iterations, distributed::peak_megabytes(), solution.kkt.residual,
+  fmt::print("serial,{},1,{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},0,{},0,{},{:.0f},{:.1e},{:.3g}\n",
+             element.name(), problem.free_count(), mesh_seconds, assemble_seconds,
+             solution.seconds.analyse + solution.seconds.factor,
+             solution.seconds.contact + solution.seconds.solve, cpu_seconds() - before,
+             solution.counters.corrections, solution.counters.contact_iterations,
+             distributed::peak_megabytes(), solution.kkt.residual,
              residual_seconds(problem, solution.u));
 }
 
 void petsc(const Scene& scene, const Element& element, int cells, bool levels) {
   int coarse = cells, refinements = 0;
-  while (coarse % 2 == 0 && coarse / 2 >= std::max(16, 8 * distributed::ranks())) coarse /= 2, ++refinements;
+  while (coarse % 2 == 0 && coarse / 2 >= std::max(16, 8 * distributed::ranks()))
+    coarse /= 2, ++refinements;
   distributed::NestedOptions options;
   options.refinements = refinements;
   distributed::NestedReport report;
-  const auto level = distributed::solve_nested(scene, structured_mesh(coarse), element, options, report);
+  const auto level =
+      distributed::solve_nested(scene, structured_mesh(coarse), element, options, report);
   const double peak = distributed::peak_megabytes();
   const double residual = residual_seconds(level->problem.part(), level->state.u);
   double processor = 0;
   for (const distributed::LoopReport& loop : report.loops) processor += loop.processor;
   if (distributed::rank() > 0) return;
-  fmt::print("petsc,{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{:.0f},{:.1e},{:.3g}\n", element.name(),
-             distributed::ranks(), report.unknowns.back(), report.mesh, report.assemble, report.setup, report.solve,
-             processor, report.last.linear_iterations, report.last.corrections, report.last.max_iterations,
-             report.last.set_changes, peak, report.kkt.residual, residual);
+  fmt::print("petsc,{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{:.0f},{:.1e},{:.3g}\n",
+             element.name(), distributed::ranks(), report.unknowns.back(), report.mesh,
+             report.assemble, report.setup, report.solve, processor, report.last.linear_iterations,
+             report.last.corrections, report.last.max_iterations, report.last.set_changes, peak,
+             report.kkt.residual, residual);
   for (std::size_t l = 0; levels && l < report.loops.size(); ++l)
-    fmt::print("  {} unknowns: {} corrections, {} iterations (most {}), {} setups; setup {:.3f} s, solve {:.3f} s\n",
-               report.unknowns[l], report.loops[l].corrections, report.loops[l].linear_iterations,
-               report.loops[l].max_iterations, report.loops[l].setups, report.loops[l].seconds_setup,
-               report.loops[l].seconds_solve);
+    fmt::print(
+        "  {} unknowns: {} corrections, {} iterations (most {}), {} setups; setup {:.3f} s, solve "
+        "{:.3f} s\n",
+        report.unknowns[l], report.loops[l].corrections, report.loops[l].linear_iterations,
+        report.loops[l].max_iterations, report.loops[l].setups, report.loops[l].seconds_setup,
+        report.loops[l].seconds_solve);
 }
 
 }  // namespace
@@ -79,7 +86,8 @@ void petsc(const Scene& scene, const Element& element, int cells, bool levels) {
 int main(int argc, char** argv) {
   CLI::App line(
       "The cost of the distributed solver and of the serial one: "
-      "solver,element,ranks,unknowns,mesh,assemble,setup or factor,solve,CPU of these two,iterations,corrections,"
+      "solver,element,ranks,unknowns,mesh,assemble,setup or factor,solve,CPU of these "
+      "two,iterations,corrections,"
       "most iterations,contact sets,peak MB of the largest rank,residual,seconds of one residual",
       "distributed_cost");
   int cells = 256;

@@ -1,5 +1,6 @@
-// Measures the cost of bounds on all unknowns: a membrane over an obstacle, on the Schur complement and on the sparse
-// matrix. Finds the number of bounds at which the two cost the same (ContactReduction, solve/penalised_cholesky.hpp).
+// Measures the cost of bounds on all unknowns: a membrane over an obstacle, on the Schur complement
+// and on the sparse matrix. Finds the number of bounds at which the two cost the same
+// (ContactReduction, solve/penalised_cholesky.hpp).
 //
 // Run: many_bounds --out results/benchmark                 half a minute: the table, to 1/h = 512
 // Run: many_bounds --crossover --out results/benchmark     bounds on k rows of the vertices instead: 20 s
@@ -47,9 +48,12 @@ void table(int finest, const std::filesystem::path& folder) {
     const VariationalInequality problem = test::membrane_over_obstacle(n);
     const Measured sparse = measure(problem, ContactReduction::sparse);
     const std::string dense =
-        n > 45 ? "" : fmt::format("{:.3g}", measure(problem, ContactReduction::schur_complement).seconds);
-    fmt::print("{:>7} bounds: dense {:>6} s, sparse {:.3g} s in {} steps, {} factorisations\n", problem.size(), dense,
-               sparse.seconds, sparse.counters.contact_iterations, sparse.counters.factorisations);
+        n > 45
+            ? ""
+            : fmt::format("{:.3g}", measure(problem, ContactReduction::schur_complement).seconds);
+    fmt::print("{:>7} bounds: dense {:>6} s, sparse {:.3g} s in {} steps, {} factorisations\n",
+               problem.size(), dense, sparse.seconds, sparse.counters.contact_iterations,
+               sparse.counters.factorisations);
     std::fflush(stdout);
     csv += fmt::format("{},{},{:.4g},{},{}\n", problem.size(), dense, sparse.seconds,
                        sparse.counters.contact_iterations, sparse.counters.factorisations);
@@ -64,15 +68,17 @@ void crossover(const std::filesystem::path& folder) {
       VariationalInequality problem = test::membrane_over_obstacle(n);
       const int m = n - 1, first = (m - rows) / 2 * m;
       const auto begin = problem.bounds.unknowns.begin() + first;
-      problem.bounds = Bounds::lower_on({begin, begin + rows * m}, problem.bounds.lower.segment(first, rows * m));
+      problem.bounds = Bounds::lower_on({begin, begin + rows * m},
+                                        problem.bounds.lower.segment(first, rows * m));
       const double dense = measure(problem, ContactReduction::schur_complement).seconds;
       const double sparse = measure(problem, ContactReduction::sparse).seconds;
       fmt::print(
-          "{:>6} unknowns, {:>5} bounds = {:>2} sqrt(F): dense {:.3g} s, sparse {:.3g} s, dense over sparse {:.2f}\n",
+          "{:>6} unknowns, {:>5} bounds = {:>2} sqrt(F): dense {:.3g} s, sparse {:.3g} s, dense "
+          "over sparse {:.2f}\n",
           problem.size(), problem.bounds.unknowns.size(), rows, dense, sparse, dense / sparse);
       std::fflush(stdout);
-      csv +=
-          fmt::format("{},{},{},{:.4g},{:.4g}\n", problem.size(), problem.bounds.unknowns.size(), rows, dense, sparse);
+      csv += fmt::format("{},{},{},{:.4g},{:.4g}\n", problem.size(), problem.bounds.unknowns.size(),
+                         rows, dense, sparse);
     }
   write_file(folder / "crossover.csv", [&](std::ostream& out) { out << csv; });
 }
@@ -86,7 +92,8 @@ int main(int argc, char** argv) {
   bool rows = false;
   std::filesystem::path folder = "results/benchmark";
   line.add_option("--cells", finest, "finest mesh, 1/h")->check(CLI::Range(16, 512));
-  line.add_flag("--crossover", rows, "bounds on a few rows of vertices, to see where the two reductions cost the same");
+  line.add_flag("--crossover", rows,
+                "bounds on a few rows of vertices, to see where the two reductions cost the same");
   line.add_option("--out", folder, "folder of the results");
   if (const auto status = antilock::tutorial::parse(line, argc, argv)) return *status;
   try {

@@ -22,7 +22,8 @@ CholeskySeconds unconstrained_cholesky(const VariationalInequality& problem) {
   seconds.factor = watch.lap();
   const Eigen::VectorXd u = cholesky.solve(load);
   seconds.solve = watch.lap();
-  if (cholesky.info() != Eigen::Success || !u.allFinite()) throw Error("benchmark: the Cholesky factorisation failed");
+  if (cholesky.info() != Eigen::Success || !u.allFinite())
+    throw Error("benchmark: the Cholesky factorisation failed");
   return seconds;
 }
 

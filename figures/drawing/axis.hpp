@@ -27,7 +27,8 @@ class Axis {
 
  private:
   static Axis widened(double low, double high, double room);
-  Axis(double low, double high, bool logarithmic) : low_(low), high_(high), logarithmic_(logarithmic) {}
+  Axis(double low, double high, bool logarithmic)
+      : low_(low), high_(high), logarithmic_(logarithmic) {}
   double low_, high_;
   bool logarithmic_;
   std::vector<Tick> ticks_;

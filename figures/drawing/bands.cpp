@@ -19,8 +19,8 @@
 namespace antilock::figures {
 namespace {
 
-// Rows of the image that are read back at a time, and rows rendered below and above them: a thick line of a scene is cut
-// off where its centre leaves the window.
+// Rows of the image that are read back at a time, and rows rendered below and above them: a thick
+// line of a scene is cut off where its centre leaves the window.
 constexpr int band_height = 150, margin = 5;
 constexpr int rendered_rows = band_height + 2 * margin;
 
@@ -31,7 +31,8 @@ class Sheet : public vtkContextItem {
   vtkTypeMacro(Sheet, vtkContextItem) const std::vector<Painting>* pieces = nullptr;
   int height = 0, from = 0;
   bool Paint(vtkContext2D* painter) override {
-    // A vtkContext2D puts 0.5 and n - 0.5 on the borders of a window of n pixels: here, on those of the whole page.
+    // A vtkContext2D puts 0.5 and n - 0.5 on the borders of a window of n pixels: here, on those of
+    // the whole page.
     const double page = oversampling * height, rows = oversampling * rendered_rows;
     const double scale = (1 - 1 / rows) / (1 - 1 / page);
     vtkNew<vtkTransform2D> onto_rows;
@@ -47,8 +48,8 @@ class Sheet : public vtkContextItem {
 };
 vtkStandardNewMacro(Sheet);
 
-/// Shows the part of a scene that lies in a band. All in pixels of the large image, whole ones, so that every band
-/// shows what the whole page would.
+/// Shows the part of a scene that lies in a band. All in pixels of the large image, whole ones, so
+/// that every band shows what the whole page would.
 class SceneInBands {
  public:
   SceneInBands(const Drawing3d& scene, int width)
@@ -62,7 +63,9 @@ class SceneInBands {
     const long low = std::max(low_, from), high = std::min(high_, from + rows);
     renderer_->SetDraw(low < high);
     if (low >= high) return;
-    const auto share = [&](long y) { return static_cast<double>(y - from) / static_cast<double>(rows); };
+    const auto share = [&](long y) {
+      return static_cast<double>(y - from) / static_cast<double>(rows);
+    };
     renderer_->SetViewport(left_, share(low), right_, share(high));
     vtkCamera* camera = renderer_->GetActiveCamera();
     const auto shown = static_cast<double>(high - low);
@@ -86,7 +89,8 @@ void average(const unsigned char* large, vtkImageData& image, int from, int to) 
       for (int channel = 0; channel < 3; ++channel) {
         int sum = 0;
         for (int i = 0; i < oversampling; ++i)
-          for (int j = 0; j < oversampling; ++j) sum += square[4 * (i * oversampling * width + j) + channel];
+          for (int j = 0; j < oversampling; ++j)
+            sum += square[4 * (i * oversampling * width + j) + channel];
         *out++ = static_cast<unsigned char>(sum / (oversampling * oversampling));
       }
   }
@@ -94,8 +98,9 @@ void average(const unsigned char* large, vtkImageData& image, int from, int to) 
 
 }  // namespace
 
-vtkSmartPointer<vtkImageData> render_in_bands(const std::vector<Drawing3d>& scenes, const std::vector<Painting>& pieces,
-                                              int width, int height) {
+vtkSmartPointer<vtkImageData> render_in_bands(const std::vector<Drawing3d>& scenes,
+                                              const std::vector<Painting>& pieces, int width,
+                                              int height) {
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(0);
@@ -129,7 +134,8 @@ vtkSmartPointer<vtkImageData> render_in_bands(const std::vector<Drawing3d>& scen
   vtkNew<vtkUnsignedCharArray> pixels;
   for (int from = 0; from < height; from += band_height) {
     sheet->from = from - margin;
-    for (const SceneInBands& scene : shown) scene.show(oversampling * (from - margin), oversampling * rendered_rows);
+    for (const SceneInBands& scene : shown)
+      scene.show(oversampling * (from - margin), oversampling * rendered_rows);
     window->Render();
     // with alpha, as the driver holds them: three channels are packed one pixel at a time
     window->GetRGBACharPixelData(0, oversampling * margin, oversampling * width - 1,

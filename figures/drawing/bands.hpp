@@ -30,7 +30,8 @@ constexpr int oversampling = 3;  ///< pixels rendered per pixel of the image, ea
 /// operations in their order. It is rendered larger and averaged, which smooths every edge. It is
 /// rendered in bands from the bottom up, because the driver keeps some eight copies of its output.
 /// For a whole page they would be a gigabyte, and their allocation would take half of the time.
-vtkSmartPointer<vtkImageData> render_in_bands(const std::vector<Drawing3d>& scenes, const std::vector<Painting>& pieces,
-                                              int width, int height);
+vtkSmartPointer<vtkImageData> render_in_bands(const std::vector<Drawing3d>& scenes,
+                                              const std::vector<Painting>& pieces, int width,
+                                              int height);
 
 }  // namespace antilock::figures

@@ -18,7 +18,8 @@ double colour_bar_room(const Range& range, double before, double least) {
   return std::max(least, before + bar_width + to_numbers + numbers + right_margin);
 }
 
-void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::string& name, const Beyond& beyond) {
+void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::string& name,
+                     const Beyond& beyond) {
   constexpr int steps = 256;
   for (int i = 0; i < steps; ++i)
     page.fill(Box{box.x, box.y + box.height * i / steps, box.width, box.height / steps + 1.0},
@@ -40,7 +41,8 @@ void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::
   for (const Tick& tick : axis.ticks()) {
     const double y = box.y + box.height * (tick.value - range.low) / (range.high - range.low);
     page.line({{box.right(), y}, {box.right() + 12, y}}, {2.5});
-    page.text({box.right() + to_numbers, y}, tick.label, {number_size, {0, Anchor::Height::middle}});
+    page.text({box.right() + to_numbers, y}, tick.label,
+              {number_size, {0, Anchor::Height::middle}});
   }
   page.text({box.centre().x, box.top() + head + 30}, name, {name_size, {0.5}});
 }
@@ -55,7 +57,8 @@ Beyond beyond(const Range& range, const Range& data) {
 
 void check(const Range& range) {
   if (!(range.high > range.low) || !std::isfinite(range.high - range.low))
-    throw Error(fmt::format("range {} {}: accepted: two finite numbers, the smaller first", range.low, range.high));
+    throw Error(fmt::format("range {} {}: accepted: two finite numbers, the smaller first",
+                            range.low, range.high));
 }
 
 }  // namespace antilock::figures

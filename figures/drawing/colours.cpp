@@ -26,7 +26,8 @@ Colour viridis(double t) {
   const auto first = std::min(static_cast<std::size_t>(place), samples.size() - 2);
   const double rest = place - static_cast<double>(first);
   Colour mixed;
-  for (int i = 0; i < 3; ++i) mixed[i] = (1 - rest) * samples[first][i] + rest * samples[first + 1][i];
+  for (int i = 0; i < 3; ++i)
+    mixed[i] = (1 - rest) * samples[first][i] + rest * samples[first + 1][i];
   return mixed;
 }
 

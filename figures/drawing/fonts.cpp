@@ -15,10 +15,16 @@ Characters decode(const std::string& utf8) {
   Characters characters;
   for (std::size_t i = 0; i < utf8.size();) {
     const auto first = static_cast<unsigned char>(utf8[i]);
-    const int more = first < 0x80 ? 0 : first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : first >= 0xC2 ? 1 : -1;
-    if (more < 0 || i + more >= utf8.size()) throw Error(fmt::format("text \"{}\": not UTF-8", utf8));
+    const int more = first < 0x80    ? 0
+                     : first >= 0xF0 ? 3
+                     : first >= 0xE0 ? 2
+                     : first >= 0xC2 ? 1
+                                     : -1;
+    if (more < 0 || i + more >= utf8.size())
+      throw Error(fmt::format("text \"{}\": not UTF-8", utf8));
     char32_t character = more == 0 ? first : first & (0x3F >> more);
-    for (int k = 1; k <= more; ++k) character = (character << 6) | (static_cast<unsigned char>(utf8[i + k]) & 0x3F);
+    for (int k = 1; k <= more; ++k)
+      character = (character << 6) | (static_cast<unsigned char>(utf8[i + k]) & 0x3F);
     characters.push_back(character);
     i += more + 1;
   }
@@ -27,12 +33,14 @@ Characters decode(const std::string& utf8) {
 
 /// Letters that mathematics sets in italic: Latin, and small Greek.
 bool slanted(char32_t c) {
-  return (c >= U'a' && c <= U'z') || (c >= U'A' && c <= U'Z') || (c >= U'α' && c <= U'ω') || c == U'ϵ' || c == U'∂';
+  return (c >= U'a' && c <= U'z') || (c >= U'A' && c <= U'Z') || (c >= U'α' && c <= U'ω') ||
+         c == U'ϵ' || c == U'∂';
 }
 
 bool has_second_script(const Characters& text, std::size_t from) {
   std::size_t after = from + 2;
-  if (from + 1 < text.size() && text[from + 1] == U'{') after = std::min(text.find(U'}', from), text.size()) + 1;
+  if (from + 1 < text.size() && text[from + 1] == U'{')
+    after = std::min(text.find(U'}', from), text.size()) + 1;
   return after < text.size() && text[after] == (text[from] == U'_' ? U'^' : U'_');
 }
 
@@ -61,7 +69,8 @@ void Fonts::put(Line& line, char32_t character, bool in_math, double size, doubl
   FT_Face face = in_math && slanted(character) ? italic_ : upright_;
   unsigned index = FT_Get_Char_Index(face, character);
   if (index == 0) index = FT_Get_Char_Index(face = upright_, character);
-  if (index == 0) throw Error(fmt::format("text: STIX has no glyph U+{:04X}", static_cast<unsigned>(character)));
+  if (index == 0)
+    throw Error(fmt::format("text: STIX has no glyph U+{:04X}", static_cast<unsigned>(character)));
   if (FT_Load_Glyph(face, index, FT_LOAD_NO_SCALE | FT_LOAD_IGNORE_TRANSFORM) != 0)
     throw Error("text: a glyph cannot be loaded");
   const FT_Glyph_Metrics& metrics = face->glyph->metrics;
@@ -71,15 +80,16 @@ void Fonts::put(Line& line, char32_t character, bool in_math, double size, doubl
                          size,
                          line.width,
                          y,
-                         {line.width + unit * metrics.horiBearingX, y + unit * (metrics.horiBearingY - metrics.height),
-                          unit * metrics.width, unit * metrics.height}});
+                         {line.width + unit * metrics.horiBearingX,
+                          y + unit * (metrics.horiBearingY - metrics.height), unit * metrics.width,
+                          unit * metrics.height}});
   line.width += unit * static_cast<double>(face->glyph->advance.x);
 }
 
 /// Sets characters [from, to) and stops at `end` (0: none); returns the place after the last one
 /// read.
-std::size_t Fonts::set(Line& line, const Characters& text, std::size_t from, char32_t end, bool in_math, double size,
-                       double y) const {
+std::size_t Fonts::set(Line& line, const Characters& text, std::size_t from, char32_t end,
+                       bool in_math, double size, double y) const {
   for (std::size_t i = from; i < text.size();) {
     const char32_t c = text[i];
     if (end != 0 && c == end) return i + 1;
@@ -98,7 +108,8 @@ std::size_t Fonts::set(Line& line, const Characters& text, std::size_t from, cha
 }
 
 /// One script, or a pair of them one above the other, from the `_` or `^` at `from`.
-std::size_t Fonts::set_scripts(Line& line, const Characters& text, std::size_t from, double size, double y) const {
+std::size_t Fonts::set_scripts(Line& line, const Characters& text, std::size_t from, double size,
+                               double y) const {
   const double start = line.width;
   double end = start;
   std::size_t i = from;

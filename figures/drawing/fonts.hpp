@@ -38,9 +38,10 @@ class Fonts {
  private:
   FT_Face open(const std::string& name) const;
   void put(Line& line, char32_t character, bool in_math, double size, double y) const;
-  std::size_t set(Line& line, const std::u32string& text, std::size_t from, char32_t end, bool in_math, double size,
-                  double y) const;
-  std::size_t set_scripts(Line& line, const std::u32string& text, std::size_t from, double size, double y) const;
+  std::size_t set(Line& line, const std::u32string& text, std::size_t from, char32_t end,
+                  bool in_math, double size, double y) const;
+  std::size_t set_scripts(Line& line, const std::u32string& text, std::size_t from, double size,
+                          double y) const;
 
   FT_Library library_ = nullptr;
   FT_Face upright_ = nullptr, italic_ = nullptr;

@@ -29,6 +29,7 @@ double smallest_type(const std::vector<LaidText>& texts, double page_width);
 /// Returns the first fault of a layout in one line: a text smaller than `least_type`, off the page,
 /// wider than allowed, or nearer to another one than `least_distance`. Returns nothing if there is
 /// none.
-std::optional<std::string> layout_fault(const std::vector<LaidText>& texts, double page_width, double page_height);
+std::optional<std::string> layout_fault(const std::vector<LaidText>& texts, double page_width,
+                                        double page_height);
 
 }  // namespace antilock::figures

@@ -10,16 +10,19 @@ constexpr double size = 48, swatch_width = 100, space = 20, gap = 64, line_heigh
 }  // namespace
 
 Legend::Legend(const Page& page, const std::vector<std::string>& names) : names_(names) {
-  for (const std::string& name : names) widths_.push_back(swatch_width + space + page.text_width(name, size));
+  for (const std::string& name : names)
+    widths_.push_back(swatch_width + space + page.text_width(name, size));
   break_lines(names.size());
-  if (!lines_.empty()) break_lines((names.size() + lines_.size() - 1) / lines_.size());  // about as many in each
+  if (!lines_.empty())
+    break_lines((names.size() + lines_.size() - 1) / lines_.size());  // about as many in each
 }
 
 void Legend::break_lines(std::size_t most) {
   lines_.clear();
   for (std::size_t n = 0; n < names_.size(); ++n) {
-    const bool full = !lines_.empty() && (lines_.back().entries.size() == most ||
-                                          lines_.back().width + gap + widths_[n] > Page::width - 2 * edge);
+    const bool full =
+        !lines_.empty() && (lines_.back().entries.size() == most ||
+                            lines_.back().width + gap + widths_[n] > Page::width - 2 * edge);
     if (lines_.empty() || full) lines_.push_back({{}, -gap});
     lines_.back().entries.push_back(n);
     lines_.back().width += gap + widths_[n];
@@ -41,7 +44,9 @@ void Legend::draw(Page& page, double bottom, const Swatch& swatch) const {
   }
 }
 
-double Legend::column_width() const { return widths_.empty() ? 0 : *std::max_element(widths_.begin(), widths_.end()); }
+double Legend::column_width() const {
+  return widths_.empty() ? 0 : *std::max_element(widths_.begin(), widths_.end());
+}
 
 void Legend::draw_in(Page& page, const Box& box, const Swatch& swatch) const {
   const double x = box.centre().x - 0.5 * column_width();

@@ -17,7 +17,9 @@
 namespace antilock::figures {
 namespace {
 
-unsigned char byte(double share) { return static_cast<unsigned char>(std::lround(255 * std::clamp(share, 0.0, 1.0))); }
+unsigned char byte(double share) {
+  return static_cast<unsigned char>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
+}
 
 /// Points as the context takes them: floats x, y, in pixels of the large image.
 std::vector<float> enlarged(const std::vector<Point>& points) {
@@ -36,14 +38,16 @@ void set_brush(vtkContext2D& context, const Colour& colour, double opacity) {
 
 /// A thick line is painted as one quadrilateral per segment and one disc per joint: round joints,
 /// on every driver.
-void paint_line(vtkContext2D& context, const std::vector<Point>& points, double width, const Colour& colour) {
+void paint_line(vtkContext2D& context, const std::vector<Point>& points, double width,
+                const Colour& colour) {
   set_brush(context, colour, 1);
   const double half = 0.5 * width;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const Point along = points[i + 1] - points[i];
     if (length(along) == 0) continue;
     const Point side = (half / length(along)) * Point{-along.y, along.x};
-    auto quad = enlarged({points[i] + side, points[i + 1] + side, points[i + 1] - side, points[i] - side});
+    auto quad =
+        enlarged({points[i] + side, points[i + 1] + side, points[i + 1] - side, points[i] - side});
     context.DrawPolygon(quad.data(), 4);
     if (i > 0 && width > 2) {
       const auto centre = enlarged({points[i]});
@@ -68,7 +72,8 @@ void Page::line(const std::vector<Point>& points, const Stroke& stroke) {
   const Lines pieces = stroke.dashes.empty() ? Lines{points} : dashed(points, stroke.dashes);
   const auto [low, high] = reach(points, stroke.width);
   pieces_.push_back({low, high, [pieces, stroke](vtkContext2D& context) {
-                       for (const auto& piece : pieces) paint_line(context, piece, stroke.width, stroke.colour);
+                       for (const auto& piece : pieces)
+                         paint_line(context, piece, stroke.width, stroke.colour);
                      }});
 }
 
@@ -84,14 +89,16 @@ void Page::rectangle(const Box& box, const Stroke& stroke) {
 
 void Page::fill(const std::vector<Point>& corners, const Colour& colour, double opacity) {
   const auto [low, high] = reach(corners);
-  pieces_.push_back({low, high, [flat = enlarged(corners), colour, opacity](vtkContext2D& context) mutable {
-                       set_brush(context, colour, opacity);
-                       context.DrawPolygon(flat.data(), static_cast<int>(flat.size() / 2));
-                     }});
+  pieces_.push_back(
+      {low, high, [flat = enlarged(corners), colour, opacity](vtkContext2D& context) mutable {
+         set_brush(context, colour, opacity);
+         context.DrawPolygon(flat.data(), static_cast<int>(flat.size() / 2));
+       }});
 }
 
 void Page::fill(const Box& box, const Colour& colour, double opacity) {
-  fill({{box.x, box.y}, {box.right(), box.y}, {box.right(), box.top()}, {box.x, box.top()}}, colour, opacity);
+  fill({{box.x, box.y}, {box.right(), box.y}, {box.right(), box.top()}, {box.x, box.top()}}, colour,
+       opacity);
 }
 
 void Page::marker(Point at, Marker shape, double size, const Colour& colour) {
@@ -114,7 +121,8 @@ void Page::arrow(Point from, Point to, const Stroke& stroke) {
   const Point along = (1 / length(to - from)) * (to - from), side{-along.y, along.x};
   const double head = 5 * stroke.width + 8;
   line({from, to - (0.8 * head) * along}, stroke);
-  fill({to, to - head * along + (0.4 * head) * side, to - head * along - (0.4 * head) * side}, stroke.colour);
+  fill({to, to - head * along + (0.4 * head) * side, to - head * along - (0.4 * head) * side},
+       stroke.colour);
 }
 
 void Page::text(Point at, const std::string& markup, const TextStyle& style) {
@@ -128,11 +136,14 @@ void Page::scene(vtkSmartPointer<vtkRenderer> renderer, const Box& where) {
 std::vector<LaidText> Page::laid_texts() const {
   std::vector<LaidText> laid;
   for (const Text& text : texts_)
-    laid.push_back({text.markup, typesetter_.extent(text.at, text.markup, text.style), text.style.most});
+    laid.push_back(
+        {text.markup, typesetter_.extent(text.at, text.markup, text.style), text.style.most});
   return laid;
 }
 
-std::optional<std::string> Page::layout_fault() const { return figures::layout_fault(laid_texts(), width, height_); }
+std::optional<std::string> Page::layout_fault() const {
+  return figures::layout_fault(laid_texts(), width, height_);
+}
 
 double Page::smallest_type() const { return figures::smallest_type(laid_texts(), width); }
 
@@ -153,8 +164,9 @@ void Page::save(const std::filesystem::path& path, int compression, bool half) c
   writer->Write();
   const vtkUnsignedCharArray* bytes = writer->GetResult();
   write_file(path, [&](std::ostream& out) {
-    out.write(reinterpret_cast<const char*>(const_cast<vtkUnsignedCharArray*>(bytes)->GetPointer(0)),
-              static_cast<std::streamsize>(bytes->GetNumberOfValues()));
+    out.write(
+        reinterpret_cast<const char*>(const_cast<vtkUnsignedCharArray*>(bytes)->GetPointer(0)),
+        static_cast<std::streamsize>(bytes->GetNumberOfValues()));
   });
 }
 

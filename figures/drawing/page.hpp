@@ -43,7 +43,9 @@ class Page {
   /// Draws an arrow from one point to another, with a filled head.
   void arrow(Point from, Point to, const Stroke& stroke = {});
   void text(Point at, const std::string& markup, const TextStyle& style = {});
-  double text_width(const std::string& markup, double size) const { return typesetter_.width(markup, size); }
+  double text_width(const std::string& markup, double size) const {
+    return typesetter_.width(markup, size);
+  }
   /// Shows a renderer in part of the page.
   void scene(vtkSmartPointer<vtkRenderer> renderer, const Box& where);
 

@@ -4,7 +4,8 @@
 
 namespace antilock::figures {
 
-std::vector<std::vector<Point>> dashed(const std::vector<Point>& points, const std::vector<double>& pattern) {
+std::vector<std::vector<Point>> dashed(const std::vector<Point>& points,
+                                       const std::vector<double>& pattern) {
   std::vector<std::vector<Point>> dashes;
   std::size_t phase = 0;
   double left = pattern[0];

@@ -13,6 +13,7 @@ std::vector<Point> outline(Marker shape);
 
 /// Cuts a line into its dashes. The lengths of the pattern are drawn, skipped, drawn, ..., in
 /// pixels.
-std::vector<std::vector<Point>> dashed(const std::vector<Point>& points, const std::vector<double>& pattern);
+std::vector<std::vector<Point>> dashed(const std::vector<Point>& points,
+                                       const std::vector<double>& pattern);
 
 }  // namespace antilock::figures

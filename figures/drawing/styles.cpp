@@ -29,7 +29,10 @@ const Row rows[] = {
     {"P1 unstructured", "$P_1$, unstructured mesh", "$P_1$ unstructured", {vermillion, square, 10}},
     {"P1 layered", "$P_1$, layered mesh", "$P_1$ layered", {olive, down_triangle, 6}},
     {"CR structured", "Crouzeix–Raviart, structured mesh", "CR structured", {green, diamond, 4.5}},
-    {"CR unstructured", "Crouzeix–Raviart, unstructured mesh", "CR unstructured", {purple, triangle, 8.5}},
+    {"CR unstructured",
+     "Crouzeix–Raviart, unstructured mesh",
+     "CR unstructured",
+     {purple, triangle, 8.5}},
     {"CR layered", "Crouzeix–Raviart, layered mesh", "CR layered", {indigo, circle, 3}},
     {"P2 structured", "$P_2$, structured mesh", "$P_2$ structured", {indigo, down_triangle, 6}},
     {"P3 structured", "$P_3$, structured mesh", "$P_3$ structured", {olive, diamond, 6}},
@@ -46,7 +49,10 @@ const Row rows[] = {
     // methods of nearly incompressible elasticity
     {"P1 right diagonals", "$P_1$, right diagonals", "", {blue, circle, 9}},
     {"P1 crossed triangles", "$P_1$, crossed triangles", "", {indigo, down_triangle, 9}},
-    {"Crouzeix-Raviart with jumps", "Crouzeix–Raviart with jumps", "CR with jumps", {green, diamond, 6.5}},
+    {"Crouzeix-Raviart with jumps",
+     "Crouzeix–Raviart with jumps",
+     "CR with jumps",
+     {green, diamond, 6.5}},
     {"Kouhia-Stenberg", "Kouhia–Stenberg", "", {black, triangle, 4}},
     {"friction bound", "$g$", "", {grey, circle, 11}},
     {"friction bound below", "$−g$", "", {grey, square, 11}},
@@ -184,7 +190,8 @@ Meaning unknown(const std::string& column, const std::string& entry) {
   const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), number);
   const bool numeric = error == std::errc{} && end == entry.data() + entry.size();
   const std::string name =
-      numeric ? fmt::format("{} = {}", column == "epsilon" ? "$ε$" : column, number_markup(number)) : entry;
+      numeric ? fmt::format("{} = {}", column == "epsilon" ? "$ε$" : column, number_markup(number))
+              : entry;
   return {name, name, {static_cast<int>(std::size(rows))}, {black, cross, 5}, false};
 }
 
@@ -192,8 +199,10 @@ Meaning unknown(const std::string& column, const std::string& entry) {
 
 void tell_unknown(const Meaning& meaning) {
   if (!meaning.known && !meaning.name.empty())
-    fmt::print(stderr, "render: \"{}\" is no key of a curve (--help lists them), and has a look of its own\n",
-               meaning.name);
+    fmt::print(
+        stderr,
+        "render: \"{}\" is no key of a curve (--help lists them), and has a look of its own\n",
+        meaning.name);
 }
 
 std::vector<std::string> known_keys() {
@@ -203,12 +212,14 @@ std::vector<std::string> known_keys() {
 }
 
 Look other_look(std::size_t n) {
-  static const Look looks[] = {{blue, circle, 7},     {vermillion, square, 7},     {green, diamond, 6},
-                               {purple, triangle, 6}, {olive, down_triangle, 5.5}, {indigo, circle, 5}};
+  static const Look looks[] = {{blue, circle, 7},           {vermillion, square, 7},
+                               {green, diamond, 6},         {purple, triangle, 6},
+                               {olive, down_triangle, 5.5}, {indigo, circle, 5}};
   return looks[n % std::size(looks)];
 }
 
-Meaning meaning_of(const std::vector<std::string>& columns, const std::vector<std::string>& entries) {
+Meaning meaning_of(const std::vector<std::string>& columns,
+                   const std::vector<std::string>& entries) {
   std::string key;
   for (std::size_t i = 0; i < entries.size(); ++i)
     key.append(i == 0 ? 0 : 1, ' ').append(key_of(columns[i], entries[i]));
@@ -216,7 +227,8 @@ Meaning meaning_of(const std::vector<std::string>& columns, const std::vector<st
   Meaning together;  // part by part; drawn like the first; of no parts: not in the table
   together.known = !entries.empty();
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Meaning part = find(key_of(columns[i], entries[i])).value_or(unknown(columns[i], entries[i]));
+    const Meaning part =
+        find(key_of(columns[i], entries[i])).value_or(unknown(columns[i], entries[i]));
     together.name.append(i == 0 ? "" : ", ").append(part.name);
     together.short_name.append(i == 0 ? 0 : 1, ' ').append(part.short_name);
     together.rank.insert(together.rank.end(), part.rank.begin(), part.rank.end());

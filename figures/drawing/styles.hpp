@@ -27,7 +27,8 @@ struct Meaning {
 /// Returns the meaning of an entry of a column of a table, such as ("epsilon", "1e-06"), or of
 /// entries of several columns together, such as element and mesh. An entry that the table of
 /// styles.cpp does not have is its own name.
-Meaning meaning_of(const std::vector<std::string>& columns, const std::vector<std::string>& entries);
+Meaning meaning_of(const std::vector<std::string>& columns,
+                   const std::vector<std::string>& entries);
 
 /// Returns the meaning of a key of that table, such as "P1 structured". Words behind a colon are
 /// added to its name.

@@ -16,7 +16,9 @@ Typesetter::~Typesetter() = default;
 Typesetter::Typesetter(Typesetter&&) noexcept = default;
 Typesetter& Typesetter::operator=(Typesetter&&) noexcept = default;
 
-double Typesetter::width(const std::string& markup, double size) const { return fonts_->layout(markup, size).width; }
+double Typesetter::width(const std::string& markup, double size) const {
+  return fonts_->layout(markup, size).width;
+}
 
 namespace {
 
@@ -57,7 +59,8 @@ void blend(vtkImageData& image, const FT_Bitmap& bitmap, int left, int top, cons
       const double cover = bitmap.buffer[row * bitmap.pitch + column] / 255.0;
       auto* pixel = static_cast<unsigned char*>(image.GetScalarPointer(x, y, 0));
       for (int i = 0; i < 3; ++i)
-        pixel[i] = static_cast<unsigned char>(std::lround((1 - cover) * pixel[i] + cover * 255 * colour[i]));
+        pixel[i] = static_cast<unsigned char>(
+            std::lround((1 - cover) * pixel[i] + cover * 255 * colour[i]));
     }
   }
 }
@@ -83,7 +86,8 @@ Extent Typesetter::extent(Point at, const std::string& markup, const TextStyle& 
   return extent;
 }
 
-void Typesetter::draw(vtkImageData& image, Point at, const std::string& markup, const TextStyle& style) const {
+void Typesetter::draw(vtkImageData& image, Point at, const std::string& markup,
+                      const TextStyle& style) const {
   const Line line = fonts_->layout(markup, style.size);
   const Placement place(at, line.width, style);
   const double c = std::cos(place.angle()), s = std::sin(place.angle());
@@ -94,7 +98,8 @@ void Typesetter::draw(vtkImageData& image, Point at, const std::string& markup, 
     const Point origin = place(glyph.x, glyph.y);
     const Point whole{std::floor(origin.x), std::floor(origin.y)};
     FT_Vector rest{std::lround(64 * (origin.x - whole.x)), std::lround(64 * (origin.y - whole.y))};
-    FT_Set_Char_Size(glyph.face, std::lround(64 * glyph.size), 0, 72, 72);  // at 72 dpi a point is a pixel
+    FT_Set_Char_Size(glyph.face, std::lround(64 * glyph.size), 0, 72,
+                     72);  // at 72 dpi a point is a pixel
     FT_Set_Transform(glyph.face, &rotation, &rest);
     if (FT_Load_Glyph(glyph.face, glyph.index, FT_LOAD_NO_HINTING | FT_LOAD_RENDER) != 0)
       throw Error("text: a glyph cannot be drawn");

@@ -8,11 +8,12 @@
 
 namespace antilock::figures {
 
-View::View(const Eigen::AlignedBox3d& space, const Eigen::AlignedBox3d& fitted, const Box& page, double azimuth,
-           double elevation)
+View::View(const Eigen::AlignedBox3d& space, const Eigen::AlignedBox3d& fitted, const Box& page,
+           double azimuth, double elevation)
     : page_(page) {
   const double turn = azimuth * std::numbers::pi / 180, lift = elevation * std::numbers::pi / 180;
-  towards_eye_ = {std::cos(lift) * std::sin(turn), -std::cos(lift) * std::cos(turn), std::sin(lift)};
+  towards_eye_ = {std::cos(lift) * std::sin(turn), -std::cos(lift) * std::cos(turn),
+                  std::sin(lift)};
   right_ = {std::cos(turn), std::sin(turn), 0};
   up_ = towards_eye_.cross(right_);
 

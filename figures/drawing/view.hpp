@@ -16,8 +16,8 @@ class View {
   /// `azimuth` turns the eye from the front (-y) towards +x, and `elevation` raises it; both are in
   /// degrees. The scale is that at which `fitted` fills the box, so that views of different spaces
   /// can be compared.
-  View(const Eigen::AlignedBox3d& space, const Eigen::AlignedBox3d& fitted, const Box& page, double azimuth,
-       double elevation);
+  View(const Eigen::AlignedBox3d& space, const Eigen::AlignedBox3d& fitted, const Box& page,
+       double azimuth, double elevation);
   /// Returns the place of a point in space on the page, in pixels.
   Point operator()(const Eigen::Vector3d& place) const;
   vtkSmartPointer<vtkCamera> camera() const;

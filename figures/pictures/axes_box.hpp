@@ -26,7 +26,8 @@ struct AxesBox {
 };
 
 /// Returns the axes box of a domain (its x and y) and of a range of u that is drawn `height` high.
-AxesBox make_axes_box(const vtkBoundingBox& domain, const Range& range, double height, AxesDetail detail);
+AxesBox make_axes_box(const vtkBoundingBox& domain, const Range& range, double height,
+                      AxesDetail detail);
 
 /// Adds floor and walls to a scene, and Sigma on the floor. The eye looks from high x and low y.
 void add_walls(vtkRenderer& renderer, const AxesBox& axes);

@@ -23,25 +23,29 @@ std::vector<Bar> read_bars(const CsvTable& table, const BarStyle& style, const s
   std::vector<Bar> bars;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (!selected(table, row, style.filters)) continue;
-    Bar bar{style.x_name.empty() ? row_meaning(table, row, style.bar_by).name : table.text(row, style.bar_by.front()),
+    Bar bar{style.x_name.empty() ? row_meaning(table, row, style.bar_by).name
+                                 : table.text(row, style.bar_by.front()),
             {}};
     for (const std::string& part : style.parts) {
       const double value = table.number(row, part);
       if (!(value >= 0) || !std::isfinite(value))
-        throw Error(
-            fmt::format("{}, row {}: {} = {}; accepted: finite values not below 0", file, row + 1, part, value));
+        throw Error(fmt::format("{}, row {}: {} = {}; accepted: finite values not below 0", file,
+                                row + 1, part, value));
       bar.parts.push_back(value);
     }
     if (bar.total() > 0) bars.push_back(std::move(bar));
   }
   if (bars.empty())
-    throw Error(fmt::format("{}: no row to draw: the sum of {} is above 0 in none; accepted: one such row or more",
-                            file, fmt::join(style.parts, " + ")));
+    throw Error(fmt::format(
+        "{}: no row to draw: the sum of {} is above 0 in none; accepted: one such row or more",
+        file, fmt::join(style.parts, " + ")));
   return bars;
 }
 
 /// Colours from dark to light, so that neighbours in a stack differ also in grey.
-Colour part_colour(std::size_t n, std::size_t count) { return viridis((n + 0.5) / static_cast<double>(count)); }
+Colour part_colour(std::size_t n, std::size_t count) {
+  return viridis((n + 0.5) / static_cast<double>(count));
+}
 
 }  // namespace
 
@@ -51,7 +55,8 @@ Page bar_picture(const std::filesystem::path& file, const BarStyle& style) {
   const std::vector<std::string>& names = style.parts;
   constexpr double size = number_size;
   const Legend legend(Page(1), names);
-  const double foot = foot_margin + legend.height() + 30, head = 90 + (style.title.empty() ? 0 : 90);
+  const double foot = foot_margin + legend.height() + 30,
+               head = 90 + (style.title.empty() ? 0 : 90);
   Page page(800 + foot + head);
   const Box box{230, foot, Page::width - 280.0, 800};
   const Axis percent = Axis::linear(0, 100);
@@ -81,7 +86,8 @@ Page bar_picture(const std::filesystem::path& file, const BarStyle& style) {
     page.fill(swatch, part_colour(n, names.size()));
     page.rectangle(swatch, {2});
   });
-  if (!style.title.empty()) page.text({0.5 * Page::width, page.height() - 76.0}, style.title, {58, {0.5}});
+  if (!style.title.empty())
+    page.text({0.5 * Page::width, page.height() - 76.0}, style.title, {58, {0.5}});
   return page;
 }
 

@@ -18,9 +18,12 @@ double steepness(const Panel& panel) {
 
 }  // namespace
 
-double strip_height(std::size_t curves) { return curves == 0 ? 0 : strip_bar * static_cast<double>(curves) + 20; }
+double strip_height(std::size_t curves) {
+  return curves == 0 ? 0 : strip_bar * static_cast<double>(curves) + 20;
+}
 
-void draw_strip(Page& page, const Panel& panel, const std::vector<Failures>& failures, std::size_t curves) {
+void draw_strip(Page& page, const Panel& panel, const std::vector<Failures>& failures,
+                std::size_t curves) {
   if (failures.empty()) return;
   const Box& box = panel.box;
   const double height = strip_height(curves), bottom = box.top() - height;
@@ -29,7 +32,8 @@ void draw_strip(Page& page, const Panel& panel, const std::vector<Failures>& fai
   for (const Failures& failed : failures) {
     for (const auto& [from, to] : failed.ranges) {
       const double a = panel(from, panel.y.high()).x, b = panel(to, panel.y.high()).x;
-      page.line({{std::max(a - 13, box.x + 2), y}, {std::min(b + 13, box.right() - 2), y}}, {bar, failed.colour});
+      page.line({{std::max(a - 13, box.x + 2), y}, {std::min(b + 13, box.right() - 2), y}},
+                {bar, failed.colour});
     }
     y -= strip_bar;
   }
@@ -39,15 +43,20 @@ void draw_failure(Page& page, const Box& box) {
   page.line({{box.x, box.centre().y}, {box.right(), box.centre().y}}, {bar, palette::grey});
 }
 
-void draw_slopes(Page& page, const Panel& panel, const std::vector<double>& slopes, const std::vector<Point>& taken) {
+void draw_slopes(Page& page, const Panel& panel, const std::vector<double>& slopes,
+                 const std::vector<Point>& taken) {
   if (slopes.empty()) return;
   const double steep = steepness(panel),
-               most = std::abs(*std::max_element(slopes.begin(), slopes.end(),
-                                                 [](double a, double b) { return std::abs(a) < std::abs(b); }));
-  const double base = std::min(120.0, 0.3 * panel.box.height / (most * steep)), triangle = base + 100;
-  const Box need{0, 0, triangle * static_cast<double>(slopes.size()), most * steep * base + size + 40};
-  const double left = panel.box.x + 30, right = panel.box.right() - need.width - 10, low = panel.box.y + 20,
-               high = panel.box.top() - need.height - 20;
+               most =
+                   std::abs(*std::max_element(slopes.begin(), slopes.end(), [](double a, double b) {
+                     return std::abs(a) < std::abs(b);
+                   }));
+  const double base = std::min(120.0, 0.3 * panel.box.height / (most * steep)),
+               triangle = base + 100;
+  const Box need{0, 0, triangle * static_cast<double>(slopes.size()),
+                 most * steep * base + size + 40};
+  const double left = panel.box.x + 30, right = panel.box.right() - need.width - 10,
+               low = panel.box.y + 20, high = panel.box.top() - need.height - 20;
   Box best{};
   long fewest = -1;
   for (const Point corner : {Point{right, low}, {left, high}, {left, low}, {right, high}}) {
@@ -64,7 +73,8 @@ void draw_slopes(Page& page, const Panel& panel, const std::vector<double>& slop
     page.line({origin, end, top, origin, end}, {3, palette::ink});
     const Anchor::Height side = slope < 0 ? Anchor::Height::baseline : Anchor::Height::top;
     page.text(end + Point{-0.5 * base, slope < 0 ? 12.0 : -12.0}, "1", {size, {0.5, side}});
-    page.text(0.5 * (end + top) + Point{14, 0}, fmt::format("{:g}", slope), {size, {0, Anchor::Height::middle}});
+    page.text(0.5 * (end + top) + Point{14, 0}, fmt::format("{:g}", slope),
+              {size, {0, Anchor::Height::middle}});
     left_end = left_end + Point{triangle, 0};
   }
 }

@@ -18,12 +18,14 @@ constexpr double strip_bar = 30;  ///< height in the strip for each curve with f
 double strip_height(std::size_t curves);
 
 /// Draws the strip.
-void draw_strip(Page& page, const Panel& panel, const std::vector<Failures>& failures, std::size_t curves);
+void draw_strip(Page& page, const Panel& panel, const std::vector<Failures>& failures,
+                std::size_t curves);
 /// Draws the sample of a failure for a legend.
 void draw_failure(Page& page, const Box& box);
 
 /// Draws triangles whose long sides have the given slopes, side by side in the corner of the panel
 /// that has the fewest of the points `taken`.
-void draw_slopes(Page& page, const Panel& panel, const std::vector<double>& slopes, const std::vector<Point>& taken);
+void draw_slopes(Page& page, const Panel& panel, const std::vector<double>& slopes,
+                 const std::vector<Point>& taken);
 
 }  // namespace antilock::figures

@@ -41,11 +41,11 @@ Axis value_axis(const CsvTable& table, const std::vector<std::string>& columns) 
   return Axis::linear(low - room, high + room);
 }
 
-/// The pieces of a curve between its jumps: steps that are unlike both of their neighbours, by three quarters of these and
-/// a hundredth of the whole.
+/// The pieces of a curve between its jumps: steps that are unlike both of their neighbours, by
+/// three quarters of these and a hundredth of the whole.
 std::vector<std::vector<Point>> pieces(const std::vector<Point>& curve) {
-  const auto [low, high] =
-      std::minmax_element(curve.begin(), curve.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
+  const auto [low, high] = std::minmax_element(
+      curve.begin(), curve.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
   const double least = 0.01 * (high->y - low->y);
   const auto step = [&](std::size_t i) { return curve[i + 1].y - curve[i].y; };
   const auto unlike = [&](std::size_t i, std::size_t beside) {
@@ -60,7 +60,8 @@ std::vector<std::vector<Point>> pieces(const std::vector<Point>& curve) {
 }
 
 /// Values at points, on lines from 0; those of several curves stand beside each other.
-void draw_stems(Page& page, const Panel& panel, const std::vector<Point>& points, const Look& look, double aside) {
+void draw_stems(Page& page, const Panel& panel, const std::vector<Point>& points, const Look& look,
+                double aside) {
   const double zero = panel(panel.x.low(), 0).y;
   for (const Point& point : points) {
     const Point top = point + Point{aside, 0};
@@ -70,11 +71,13 @@ void draw_stems(Page& page, const Panel& panel, const std::vector<Point>& points
   }
 }
 
-void draw_curve(Page& page, const std::vector<Point>& points, const Look& look, bool exact, bool jumps) {
+void draw_curve(Page& page, const std::vector<Point>& points, const Look& look, bool exact,
+                bool jumps) {
   for (const auto& piece : jumps ? pieces(points) : std::vector<std::vector<Point>>{points})
     page.line(piece, {look.width, look.colour});
   if (exact || points.size() > dense) return;
-  for (const Point& point : points) page.marker(point, look.marker, 0.75 * look.marker_size(), look.colour);
+  for (const Point& point : points)
+    page.marker(point, look.marker, 0.75 * look.marker_size(), look.colour);
 }
 
 }  // namespace
@@ -86,7 +89,8 @@ Page curves_picture(const std::filesystem::path& file, const CurvesStyle& style)
   for (const std::string& list : style.panels) {
     const auto columns = split_columns(list);
     if (columns.size() != style.meanings.size())
-      throw Error(fmt::format("panel {}: {} columns for {} meanings", list, columns.size(), style.meanings.size()));
+      throw Error(fmt::format("panel {}: {} columns for {} meanings", list, columns.size(),
+                              style.meanings.size()));
     values.push_back(value_axis(table, columns));
   }
   std::vector<Look> looks;
@@ -99,22 +103,27 @@ Page curves_picture(const std::filesystem::path& file, const CurvesStyle& style)
   }
   const bool marked = table.rows() <= dense;
   const double first = table.number(0, style.x), last = table.number(table.rows() - 1, style.x),
-               room = marked ? 0.03 * (last - first) : 0;  // a marker stands on no frame and no number
+               room =
+                   marked ? 0.03 * (last - first) : 0;  // a marker stands on no frame and no number
   const Axis x = Axis::linear(first - room, last + room);
 
   const std::size_t count = style.panels.size();
   const Legend legend(Page(1), names);
   const bool several = names.size() > 1;
-  const double foot = foot_margin + (several ? legend.height() + 30 : 10), height = count > 1 ? 760 : 880;
+  const double foot = foot_margin + (several ? legend.height() + 30 : 10),
+               height = count > 1 ? 760 : 880;
   Page page(foot + height + 50);
   double left = 0;  // every panel has numbers of its own
   for (const Axis& axis : values) left = std::max(left, left_margin(page, axis));
   const double panel_width = (Page::width - 40.0) / static_cast<double>(count) - left - 20;
   for (std::size_t i = 0; i < count; ++i) {
     const Panel panel{
-        {left + static_cast<double>(i) * (panel_width + left + 20), foot, panel_width, height}, x, values[i]};
+        {left + static_cast<double>(i) * (panel_width + left + 20), foot, panel_width, height},
+        x,
+        values[i]};
     draw_grid(page, panel);
-    const bool stems = std::find(style.stems.begin(), style.stems.end(), static_cast<int>(i) + 1) != style.stems.end();
+    const bool stems = std::find(style.stems.begin(), style.stems.end(), static_cast<int>(i) + 1) !=
+                       style.stems.end();
     const auto columns = split_columns(style.panels[i]);
     for (std::size_t n = 0; n < columns.size(); ++n) {
       if (columns[n] == nothing) continue;
@@ -126,12 +135,14 @@ Page curves_picture(const std::filesystem::path& file, const CurvesStyle& style)
       else
         draw_curve(page, points, looks[n], style.meanings[n] == "exact", style.jumps);
     }
-    draw_frame(page, panel, {"", style.x_name, i < style.y_names.size() ? style.y_names[i] : style.panels[i]});
+    draw_frame(page, panel,
+               {"", style.x_name, i < style.y_names.size() ? style.y_names[i] : style.panels[i]});
   }
   if (several)
     legend.draw(page, 24, [&](std::size_t n, const Box& box) {
       const Look& look = looks[n];
-      page.line({{box.x, box.centre().y}, {box.right(), box.centre().y}}, {look.width, look.colour});
+      page.line({{box.x, box.centre().y}, {box.right(), box.centre().y}},
+                {look.width, look.colour});
       if (style.meanings[n] != "exact" && marked)
         page.marker(box.centre(), look.marker, 0.75 * look.marker_size(), look.colour);
     });

@@ -16,7 +16,8 @@
 namespace antilock::figures {
 namespace {
 
-/// Where a point was before it moved. Rounded: it is the same one in all its triangles, which may have moved apart.
+/// Where a point was before it moved. Rounded: it is the same one in all its triangles, which may
+/// have moved apart.
 std::array<double, 2> at_rest(vtkPolyData& body, vtkIdType i) {
   vtkDataArray* moved = body.GetPointData()->GetArray("displacement");
   const auto rounded = [&](int k) {
@@ -25,7 +26,8 @@ std::array<double, 2> at_rest(vtkPolyData& body, vtkIdType i) {
   return {rounded(0), rounded(1)};
 }
 
-/// The closed lines around the body before it moved: the edges of one triangle alone, each going on where another ends.
+/// The closed lines around the body before it moved: the edges of one triangle alone, each going on
+/// where another ends.
 std::vector<std::vector<std::array<double, 2>>> outlines(vtkPolyData& body) {
   std::set<std::array<std::array<double, 2>, 2>> border;
   for (vtkIdType cell = 0; cell < body.GetNumberOfCells(); ++cell) {
@@ -42,8 +44,10 @@ std::vector<std::vector<std::array<double, 2>>> outlines(vtkPolyData& body) {
     auto& line = lines.emplace_back(1, (*border.begin())[0]);
     for (auto next = border.begin(); next != border.end() && (*next)[0] == line.back();
          next = border.lower_bound({line.back(), {-1e300, -1e300}})) {
-      const auto &to = (*next)[1], &at = line.back(), &before = line[line.size() < 2 ? 0 : line.size() - 2];
-      const double turn = (at[0] - before[0]) * (to[1] - at[1]) - (at[1] - before[1]) * (to[0] - at[0]);
+      const auto &to = (*next)[1], &at = line.back(),
+                 &before = line[line.size() < 2 ? 0 : line.size() - 2];
+      const double turn =
+          (at[0] - before[0]) * (to[1] - at[1]) - (at[1] - before[1]) * (to[0] - at[0]);
       if (line.size() < 2 || std::abs(turn) > 1e-9) line.push_back(at);  // straight on: one line
       line.back() = to;
       border.erase(next);
@@ -56,7 +60,9 @@ std::vector<std::vector<std::array<double, 2>>> outlines(vtkPolyData& body) {
 struct Frame {
   double x0, y0, scale;
   Point origin;
-  Point operator()(double x, double y) const { return origin + Point{scale * (x - x0), scale * (y - y0)}; }
+  Point operator()(double x, double y) const {
+    return origin + Point{scale * (x - x0), scale * (y - y0)};
+  }
 };
 
 /// Outside the scale: tension (or less than the scale begins with), and more than it ends with.
@@ -77,7 +83,8 @@ void draw_body(Page& page, const Frame& at, vtkPolyData& body, const Range& rang
     body.GetCellPoints(cell, size, corners);
     std::vector<Point> triangle;
     triangle.reserve(4);  // the first corner ends its outline, too
-    for (int i = 0; i < 3; ++i) triangle.push_back(at(body.GetPoint(corners[i])[0], body.GetPoint(corners[i])[1]));
+    for (int i = 0; i < 3; ++i)
+      triangle.push_back(at(body.GetPoint(corners[i])[0], body.GetPoint(corners[i])[1]));
     page.fill(triangle, colour_of(pressure->GetTuple1(cell), range));
     triangle.push_back(triangle.front());
     triangles.push_back(triangle);
@@ -123,7 +130,8 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
   const auto count = static_cast<double>(bodies.size());
   const double body_width = (Page::width - 2 * margin - bar_room - (count - 1) * gap) / count;
   const Frame unit{seen.GetBound(0), seen.GetBound(2), body_width / seen.GetLength(0), {0, 0}};
-  const double body_height = unit.scale * seen.GetLength(1), bottom = seen.GetBound(2) - 0.02 * seen.GetLength(1);
+  const double body_height = unit.scale * seen.GetLength(1),
+               bottom = seen.GetBound(2) - 0.02 * seen.GetLength(1);
   Page page(foot + body_height + head);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double left = margin + static_cast<double>(i) * (body_width + gap);
@@ -139,8 +147,10 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
     page.text({left + 0.5 * body_width, page.height() - 70.0}, bodies[i].title,
               {name_size, {0.5}, 0, palette::ink, body_width});
   }
-  draw_colour_bar(page, {Page::width - bar_room + 80.0, foot + 0.2 * body_height, bar_width, 0.55 * body_height}, range,
-                  style.name, heads);
+  draw_colour_bar(
+      page,
+      {Page::width - bar_room + 80.0, foot + 0.2 * body_height, bar_width, 0.55 * body_height},
+      range, style.name, heads);
   return page;
 }
 

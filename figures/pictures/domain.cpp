@@ -43,7 +43,8 @@ Colour colour_of(const std::string& name) {
 std::vector<Part> read_parts(const CsvTable& table) {
   std::vector<Part> parts;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const auto &kind = table.text(row, "kind"), &name = table.text(row, "name"), &label = table.text(row, "label");
+    const auto &kind = table.text(row, "kind"), &name = table.text(row, "name"),
+               &label = table.text(row, "label");
     if (kind == "label" || parts.empty() || parts.back().kind != kind || parts.back().name != name)
       parts.push_back({kind, name, label, {}});
     parts.back().corners.push_back({table.number(row, "x"), table.number(row, "y")});
@@ -76,8 +77,9 @@ void draw(Page& page, const Part& part) {
     draw_obstacle(page, corners.front(), corners.back());
   } else if (part.kind == "label") {
     const bool small = part.name.starts_with("axis");
-    page.text(corners.front(), part.label,
-              {small ? 52.0 : 66.0, {0.5, Anchor::Height::middle}, 0, small ? palette::ink : colour});
+    page.text(
+        corners.front(), part.label,
+        {small ? 52.0 : 66.0, {0.5, Anchor::Height::middle}, 0, small ? palette::ink : colour});
   }
 }
 
@@ -86,10 +88,11 @@ void draw(Page& page, const Part& part) {
 Page domain_picture(const std::filesystem::path& outline, const std::string& title) {
   std::vector<Part> parts = read_parts(CsvTable(outline));
   const Part window = parts.front();
-  if (window.kind != "page" || window.corners.size() != 2 || !(window.corners[1].x > window.corners[0].x) ||
-      !(window.corners[1].y > window.corners[0].y))
-    throw Error(fmt::format("{}: must open with two rows of kind page, the lower left and upper right corner",
-                            outline.string()));
+  if (window.kind != "page" || window.corners.size() != 2 ||
+      !(window.corners[1].x > window.corners[0].x) || !(window.corners[1].y > window.corners[0].y))
+    throw Error(fmt::format(
+        "{}: must open with two rows of kind page, the lower left and upper right corner",
+        outline.string()));
 
   const double head = title.empty() ? 0 : 120;
   const Point span = window.corners[1] - window.corners[0];

@@ -58,14 +58,16 @@ void fill_triangle(Page& page, const std::vector<Corner>& triangle, const Bands&
 /// Panel name -> x -> y -> log10 z.
 using Grids = std::map<std::string, std::map<double, std::map<double, double>>>;
 
-void draw_map(Page& page, const Panel& panel, const std::map<double, std::map<double, double>>& grid,
-              const Bands& bands) {
-  for (auto column = grid.begin(); column != grid.end() && std::next(column) != grid.end(); ++column) {
+void draw_map(Page& page, const Panel& panel,
+              const std::map<double, std::map<double, double>>& grid, const Bands& bands) {
+  for (auto column = grid.begin(); column != grid.end() && std::next(column) != grid.end();
+       ++column) {
     const auto& [x0, left] = *column;
     const auto& [x1, right] = *std::next(column);
     for (auto cell = left.begin(); cell != left.end() && std::next(cell) != left.end(); ++cell) {
       const double y0 = cell->first, y1 = std::next(cell)->first;
-      if (!right.contains(y0) || !right.contains(y1)) continue;  // a run that is missing leaves a hole
+      if (!right.contains(y0) || !right.contains(y1))
+        continue;  // a run that is missing leaves a hole
       const Corner a{panel(x0, y0), cell->second}, b{panel(x1, y0), right.at(y0)};
       const Corner c{panel(x1, y1), right.at(y1)}, d{panel(x0, y1), std::next(cell)->second};
       const Corner middle{0.25 * (a.at + b.at + c.at + d.at), 0.25 * (a.z + b.z + c.z + d.z)};
@@ -78,18 +80,22 @@ void draw_map(Page& page, const Panel& panel, const std::map<double, std::map<do
 void draw_scale(Page& page, const Box& box, const Bands& bands, const std::string& name) {
   constexpr double size = number_size;
   for (int band = 0; band < bands.count(); ++band)
-    page.fill(Box{box.x, box.y + band * box.height / bands.count(), box.width, box.height / bands.count()},
+    page.fill(Box{box.x, box.y + band * box.height / bands.count(), box.width,
+                  box.height / bands.count()},
               bands.colour(band));
   page.rectangle(box, {2.5});
   double widest = 0;
-  for (int level = 0; level <= bands.count(); ++level) {  // every level line has its number, to two digits
-    const double y = box.y + level * box.height / bands.count(), value = std::pow(10, bands.low + level * bands.step);
+  for (int level = 0; level <= bands.count();
+       ++level) {  // every level line has its number, to two digits
+    const double y = box.y + level * box.height / bands.count(),
+                 value = std::pow(10, bands.low + level * bands.step);
     page.line({{box.right(), y}, {box.right() + 12, y}}, {2.5});
     const std::string number = number_markup(std::stod(fmt::format("{:.2g}", value)));
     page.text({box.right() + 24, y}, number, {size, {0, Anchor::Height::middle}});
     widest = std::max(widest, page.text_width(number, size));
   }
-  page.text({box.right() + 24 + widest + 24 + name_size, box.centre().y}, name, {name_size, {0.5}, 90});
+  page.text({box.right() + 24 + widest + 24 + name_size, box.centre().y}, name,
+            {name_size, {0.5}, 90});
 }
 
 }  // namespace
@@ -101,7 +107,8 @@ Page map_picture(const std::filesystem::path& file, const MapStyle& style) {
   std::vector<double> xs, ys, zs;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (!selected(table, row, style.filters)) continue;
-    const double x = table.number(row, style.x), y = table.number(row, style.y), z = table.number(row, style.z);
+    const double x = table.number(row, style.x), y = table.number(row, style.y),
+                 z = table.number(row, style.z);
     if (!(x > 0 && y > 0 && z > 0 && std::isfinite(x + y + z))) continue;
     const Meaning panel = row_meaning(table, row, style.panel_by);
     panels.add(panel);
@@ -110,7 +117,8 @@ Page map_picture(const std::filesystem::path& file, const MapStyle& style) {
   }
   if (zs.empty())
     throw Error(
-        fmt::format("{}: no row to draw: {}, {} and {} are finite and above 0 in none; accepted: one such row or more",
+        fmt::format("{}: no row to draw: {}, {} and {} are finite and above 0 in none; accepted: "
+                    "one such row or more",
                     file.string(), style.x, style.y, style.z));
   const auto [x_low, x_high] = std::minmax_element(xs.begin(), xs.end());
   const auto [y_low, y_high] = std::minmax_element(ys.begin(), ys.end());
@@ -119,26 +127,32 @@ Page map_picture(const std::filesystem::path& file, const MapStyle& style) {
 
   const std::size_t count = panels.size(), columns = panel_columns(count), rows = panel_rows(count);
   const double panel_height = rows > 1 ? 560 : 760, gap_x = 60, gap_y = head_margin + 30;
-  const double head = head_margin + (style.title.empty() ? 0 : 90), foot = foot_margin + 10, scale_room = 330;
-  const double rows_height = static_cast<double>(rows) * panel_height + static_cast<double>(rows - 1) * gap_y;
+  const double head = head_margin + (style.title.empty() ? 0 : 90), foot = foot_margin + 10,
+               scale_room = 330;
+  const double rows_height =
+      static_cast<double>(rows) * panel_height + static_cast<double>(rows - 1) * gap_y;
   Page page(rows_height + head + foot);
-  const Axis y = style.y == "h" ? Axis::halving(*y_low, *y_high, 0) : Axis::logarithmic(*y_low, *y_high, 0);
+  const Axis y =
+      style.y == "h" ? Axis::halving(*y_low, *y_high, 0) : Axis::logarithmic(*y_low, *y_high, 0);
   const double left = left_margin(page, y);
   const Box area{left, foot, Page::width - left - scale_room, rows_height};
   const auto boxes = arrange_panels(count, area, gap_x, gap_y);
   const Axis x = Axis::logarithmic(*x_low, *x_high, 0.0, static_cast<int>(boxes[0].width / 170));
   const auto titles = panels.names([&](const auto& names) {
-    return std::all_of(names.begin(), names.end(),
-                       [&](const std::string& name) { return page.text_width(name, name_size) <= boxes[0].width; });
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+      return page.text_width(name, name_size) <= boxes[0].width;
+    });
   });
   for (std::size_t i = 0; i < count; ++i) {
     const Panel panel{boxes[i], x, y};
     draw_map(page, panel, grids.at(panels[i].name), bands);
     draw_frame(page, panel,
-               {titles[i], i + columns >= count ? style.x_name : "", i % columns == 0 ? style.y_name : ""});
+               {titles[i], i + columns >= count ? style.x_name : "",
+                i % columns == 0 ? style.y_name : ""});
   }
   draw_scale(page, {area.right() + 40, area.y, 56, area.height}, bands, style.z_name);
-  if (!style.title.empty()) page.text({0.5 * Page::width, page.height() - 76.0}, style.title, {58, {0.5}});
+  if (!style.title.empty())
+    page.text({0.5 * Page::width, page.height() - 76.0}, style.title, {58, {0.5}});
   return page;
 }
 

@@ -20,7 +20,8 @@ double smallest_angle(const TriangleMesh& mesh) {
       const auto corner = mesh.vertices.row(mesh.triangles(t, i));
       const Eigen::RowVector2d a = mesh.vertices.row(mesh.triangles(t, (i + 1) % 3)) - corner;
       const Eigen::RowVector2d b = mesh.vertices.row(mesh.triangles(t, (i + 2) % 3)) - corner;
-      smallest = std::min(smallest, std::acos(std::clamp(a.dot(b) / (a.norm() * b.norm()), -1.0, 1.0)));
+      smallest =
+          std::min(smallest, std::acos(std::clamp(a.dot(b) / (a.norm() * b.norm()), -1.0, 1.0)));
     }
   return smallest * 180 / std::numbers::pi;
 }
@@ -45,7 +46,8 @@ void draw_legend(Page& page, Point at, const TriangleMesh& mesh) {
     page.text({at.x + swatch + 30, at.y}, name, {size, {0, Anchor::Height::middle}});
     at.y -= step;
   };
-  const bool layered = std::find(mesh.region.begin(), mesh.region.end(), Region::layer) != mesh.region.end();
+  const bool layered =
+      std::find(mesh.region.begin(), mesh.region.end(), Region::layer) != mesh.region.end();
   const auto region = [&](const Colour& colour, const std::string& name) {
     const Box box{at.x, at.y - 24, swatch, 48};
     page.fill(box, colour);
@@ -61,8 +63,9 @@ void draw_legend(Page& page, Point at, const TriangleMesh& mesh) {
   }
   at.y -= 0.5 * step;
   for (const std::string& fact :
-       {fmt::format("{} triangles", mesh.triangle_count()), fmt::format("{} vertices", mesh.vertex_count()),
-        fmt::format("{} edges", mesh.edge_count()), fmt::format("longest edge $h =$ {:.4f}", mesh.diameter()),
+       {fmt::format("{} triangles", mesh.triangle_count()),
+        fmt::format("{} vertices", mesh.vertex_count()), fmt::format("{} edges", mesh.edge_count()),
+        fmt::format("longest edge $h =$ {:.4f}", mesh.diameter()),
         fmt::format("smallest angle {:.1f}°", smallest_angle(mesh))}) {
     page.text(at, fact, {size, {0, Anchor::Height::middle}});
     at.y -= 0.8 * step;
@@ -73,7 +76,8 @@ void draw_legend(Page& page, Point at, const TriangleMesh& mesh) {
 
 Page mesh_picture(const std::filesystem::path& file, const std::string& title) {
   const TriangleMesh mesh = read_msh(file.string());
-  const Eigen::RowVector2d low = mesh.vertices.colwise().minCoeff(), span = mesh.vertices.colwise().maxCoeff() - low;
+  const Eigen::RowVector2d low = mesh.vertices.colwise().minCoeff(),
+                           span = mesh.vertices.colwise().maxCoeff() - low;
   const double head = title.empty() ? 40 : 130, left = 180, foot = 150, right = 840,
                scale = (Page::width - left - right) / span.x();
   Page page(std::max(scale * span.y(), 1000.0) + foot + head);
@@ -83,8 +87,9 @@ Page mesh_picture(const std::filesystem::path& file, const std::string& title) {
   const auto vertex = [&](int v) { return pixel(mesh.vertices.row(v)); };
 
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    page.fill({vertex(mesh.triangles(t, 0)), vertex(mesh.triangles(t, 1)), vertex(mesh.triangles(t, 2))},
-              mesh.region[t] == Region::body ? palette::body : palette::layer);
+    page.fill(
+        {vertex(mesh.triangles(t, 0)), vertex(mesh.triangles(t, 1)), vertex(mesh.triangles(t, 2))},
+        mesh.region[t] == Region::body ? palette::body : palette::layer);
   const double thin = std::clamp(0.06 * scale * mesh.diameter(), 0.7, 2.2);
   for (int e = 0; e < mesh.edge_count(); ++e)
     page.line({vertex(mesh.edges(e, 0)), vertex(mesh.edges(e, 1))}, {thin, {0.25, 0.25, 0.3}});
@@ -99,10 +104,13 @@ Page mesh_picture(const std::filesystem::path& file, const std::string& title) {
   constexpr double size = number_size;
   const double bottom = low.y(), top = low.y() + span.y();
   for (const double x : {low.x(), low.x() + 0.5 * span.x(), low.x() + span.x()})
-    page.text(pixel({x, bottom}) + Point{0, -28}, fmt::format("{:g}", x), {size, {0.5, Anchor::Height::top}});
-  page.text(pixel({low.x() + 0.5 * span.x(), bottom}) + Point{0, -88}, "$x$", {1.1 * size, {0.5, Anchor::Height::top}});
+    page.text(pixel({x, bottom}) + Point{0, -28}, fmt::format("{:g}", x),
+              {size, {0.5, Anchor::Height::top}});
+  page.text(pixel({low.x() + 0.5 * span.x(), bottom}) + Point{0, -88}, "$x$",
+            {1.1 * size, {0.5, Anchor::Height::top}});
   for (double y = std::ceil(2 * bottom) / 2; y <= top + 1e-9; y += 0.5)
-    page.text(pixel({low.x(), y}) + Point{-22, 0}, fmt::format("{}{:g}", y < 0 ? "−" : "", std::abs(y)),
+    page.text(pixel({low.x(), y}) + Point{-22, 0},
+              fmt::format("{}{:g}", y < 0 ? "−" : "", std::abs(y)),
               {size, {1, Anchor::Height::middle}});
   page.text(pixel({low.x(), 0.5 * (bottom + top)}) + Point{-112, 0.25 * scale}, "$y$",
             {1.1 * size, {0.5, Anchor::Height::middle}});

@@ -13,7 +13,8 @@ namespace antilock::figures {
 bool selected(const CsvTable& table, std::size_t row, const std::vector<std::string>& filters);
 
 /// Returns the common meaning of the entries of a row in these columns.
-Meaning row_meaning(const CsvTable& table, std::size_t row, const std::vector<std::string>& columns);
+Meaning row_meaning(const CsvTable& table, std::size_t row,
+                    const std::vector<std::string>& columns);
 
 /// The distinct meanings of the rows of a table, for example those that make panels, ordered by
 /// their ranks.
@@ -22,7 +23,8 @@ class Meanings {
   /// Adds a meaning unless there is one of that name.
   void add(Meaning meaning);
   /// Returns the long names if they satisfy `fit`, and otherwise the short ones.
-  std::vector<std::string> names(const std::function<bool(const std::vector<std::string>&)>& fit) const;
+  std::vector<std::string> names(
+      const std::function<bool(const std::vector<std::string>&)>& fit) const;
 
   std::size_t size() const { return meanings_.size(); }
   const Meaning& operator[](std::size_t n) const { return meanings_[n]; }

@@ -27,7 +27,8 @@ constexpr double enlargement = oversampling;  // VTK counts line widths in rende
 /// the values cross.
 class Steps {
  public:
-  explicit Steps(vtkPolyData& surface) : surface_(surface), values_(*surface.GetPointData()->GetScalars()) {}
+  explicit Steps(vtkPolyData& surface)
+      : surface_(surface), values_(*surface.GetPointData()->GetScalars()) {}
 
   void add() {
     std::map<std::array<long, 4>, std::array<vtkIdType, 2>> open;
@@ -57,7 +58,9 @@ class Steps {
     const double* p = surface_.GetPoint(point);
     return {std::lround(1e9 * p[0]), std::lround(1e9 * p[1])};
   }
-  double step(vtkIdType a, vtkIdType b) const { return values_.GetTuple1(a) - values_.GetTuple1(b); }
+  double step(vtkIdType a, vtkIdType b) const {
+    return values_.GetTuple1(a) - values_.GetTuple1(b);
+  }
 
   void close(const std::array<vtkIdType, 2>& one, const std::array<vtkIdType, 2>& other) {
     const double first = step(one[0], other[0]), last = step(one[1], other[1]);
@@ -74,7 +77,8 @@ class Steps {
 
   vtkIdType between(vtkIdType a, vtkIdType b, double share) {
     const Vector p(surface_.GetPoint(a)), q(surface_.GetPoint(b)), at = p + share * (q - p);
-    values_.InsertNextTuple1(values_.GetTuple1(a) + share * (values_.GetTuple1(b) - values_.GetTuple1(a)));
+    values_.InsertNextTuple1(values_.GetTuple1(a) +
+                             share * (values_.GetTuple1(b) - values_.GetTuple1(a)));
     return surface_.GetPoints()->InsertNextPoint(at.data());
   }
 
@@ -112,7 +116,8 @@ void add_lines(vtkRenderer& renderer, vtkAlgorithmOutput* lines, double width, d
   renderer.AddActor(actor);
 }
 
-void add_grid(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface, int n, const Vector& towards_eye) {
+void add_grid(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface, int n,
+              const Vector& towards_eye) {
   const double* bounds = surface->GetBounds();
   for (const int axis : {0, 1}) {
     vtkNew<vtkPlane> plane;
@@ -122,7 +127,8 @@ void add_grid(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface
     cutter->SetInputData(surface);
     cutter->GenerateCutScalarsOff();
     int line = 0;
-    for (int k = static_cast<int>(std::ceil(bounds[2 * axis] * n)); k <= bounds[2 * axis + 1] * n; ++k)
+    for (int k = static_cast<int>(std::ceil(bounds[2 * axis] * n)); k <= bounds[2 * axis + 1] * n;
+         ++k)
       cutter->SetValue(line++, static_cast<double>(k) / n);
     add_lines(renderer, cutter->GetOutputPort(), 1.1, 0.5, towards_eye);
   }
@@ -141,8 +147,8 @@ vtkSmartPointer<vtkPolyData> lifted(const vtkSmartPointer<vtkPolyData>& flat, do
   return surface;
 }
 
-void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface, const Range& range,
-                 const std::optional<int>& grid, const Vector& towards_eye) {
+void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface,
+                 const Range& range, const std::optional<int>& grid, const Vector& towards_eye) {
   vtkNew<vtkPolyData> closed;
   closed->DeepCopy(surface);
   Steps(*closed).add();

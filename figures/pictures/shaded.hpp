@@ -16,7 +16,8 @@ vtkSmartPointer<vtkPolyData> lifted(const vtkSmartPointer<vtkPolyData>& flat, do
 /// Adds a surface in the colours of viridis over the range, with the lines of its mesh (fine and
 /// transparent) or with the lines x, y = k / grid. Where u jumps from triangle to triangle,
 /// vertical walls close the surface.
-void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface, const Range& range,
-                 const std::optional<int>& grid, const Eigen::Vector3d& towards_eye);
+void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface,
+                 const Range& range, const std::optional<int>& grid,
+                 const Eigen::Vector3d& towards_eye);
 
 }  // namespace antilock::figures

@@ -20,18 +20,20 @@ namespace antilock::figures {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
-  throw Error(
-      fmt::format("{}: {}; accepted: a VTU file of triangles as the tutorials write it", path.string(), reason));
+  throw Error(fmt::format("{}: {}; accepted: a VTU file of triangles as the tutorials write it",
+                          path.string(), reason));
 }
 
 /// VTK reports a bad file by an event (or, unheard, by several lines on standard error).
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path))
-    throw Error(fmt::format("{}: no such file; run the tutorial that writes it first", path.string()));
+    throw Error(
+        fmt::format("{}: no such file; run the tutorial that writes it first", path.string()));
   bool failed = false;
   vtkNew<vtkCallbackCommand> heard;
   heard->SetClientData(&failed);
-  heard->SetCallback([](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
+  heard->SetCallback(
+      [](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
 
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetReaderErrorObserver(heard);
@@ -47,29 +49,32 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path
 }
 
 /// An array of `components` finite numbers each.
-vtkDataArray* array_of(const std::filesystem::path& path, vtkDataSetAttributes* data, const char* name,
-                       int components) {
+vtkDataArray* array_of(const std::filesystem::path& path, vtkDataSetAttributes* data,
+                       const char* name, int components) {
   vtkDataArray* array = data->GetArray(name);
   if (array == nullptr || array->GetNumberOfComponents() != components)
     refuse(path, fmt::format("no data {} of {} component(s)", name, components));
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
     for (int k = 0; k < components; ++k)
-      if (!std::isfinite(array->GetComponent(i, k))) refuse(path, fmt::format("{} of entry {} is not finite", name, i));
+      if (!std::isfinite(array->GetComponent(i, k)))
+        refuse(path, fmt::format("{} of entry {} is not finite", name, i));
   return array;
 }
 
 /// The points and triangles, without data.
-vtkSmartPointer<vtkPolyData> triangles_of(const std::filesystem::path& path, vtkUnstructuredGrid& grid) {
+vtkSmartPointer<vtkPolyData> triangles_of(const std::filesystem::path& path,
+                                          vtkUnstructuredGrid& grid) {
   vtkNew<vtkCellArray> triangles;
   for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
-    if (grid.GetCellType(cell) != VTK_TRIANGLE) refuse(path, fmt::format("cell {} is not a triangle", cell));
+    if (grid.GetCellType(cell) != VTK_TRIANGLE)
+      refuse(path, fmt::format("cell {} is not a triangle", cell));
     vtkIdType size = 0;
     const vtkIdType* corners = nullptr;
     grid.GetCellPoints(cell, size, corners);
     for (int i = 0; i < 3; ++i)
       if (corners[i] < 0 || corners[i] >= grid.GetNumberOfPoints())
-        refuse(path, fmt::format("cell {} has a corner {}, but there are {} points", cell, corners[i],
-                                 grid.GetNumberOfPoints()));
+        refuse(path, fmt::format("cell {} has a corner {}, but there are {} points", cell,
+                                 corners[i], grid.GetNumberOfPoints()));
     triangles->InsertNextCell(size, corners);
   }
   auto surface = vtkSmartPointer<vtkPolyData>::New();
@@ -102,9 +107,13 @@ bool parts_at_zero(vtkPolyData& solution) {
   return true;
 }
 
-Range joined(const Range& a, const Range& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
+Range joined(const Range& a, const Range& b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
 
-Range drawn(const Range& data) { return data.low == data.high ? Range{data.low, data.low + 1} : data; }
+Range drawn(const Range& data) {
+  return data.low == data.high ? Range{data.low, data.low + 1} : data;
+}
 
 vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path) {
   const auto grid = read_grid(path);

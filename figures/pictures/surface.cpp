@@ -33,8 +33,8 @@ struct Arrangement {
   double height() const { return static_cast<double>(rows) * (cell_height + head); }
   Box cell(std::size_t i) const {
     const std::size_t above_foot = rows - 1 - i / columns;
-    return {static_cast<double>(i % columns) * cell_width, static_cast<double>(above_foot) * (cell_height + head),
-            cell_width, cell_height};
+    return {static_cast<double>(i % columns) * cell_width,
+            static_cast<double>(above_foot) * (cell_height + head), cell_width, cell_height};
   }
 };
 
@@ -62,9 +62,13 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
   const Range shared = style.range.value_or(drawn(data));
   check(shared);
   const Beyond marks = beyond(shared, data);
-  const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
-  const Arrangement at(count, titled, style.last_range.has_value(), colour_bar_room(shared, 20, 250));
-  const AxesDetail detail = at.columns == 1 ? AxesDetail::full : at.columns == 2 ? AxesDetail::few : AxesDetail::least;
+  const bool titled = std::any_of(surfaces.begin(), surfaces.end(),
+                                  [](const Surface& s) { return !s.title.empty(); });
+  const Arrangement at(count, titled, style.last_range.has_value(),
+                       colour_bar_room(shared, 20, 250));
+  const AxesDetail detail = at.columns == 1   ? AxesDetail::full
+                            : at.columns == 2 ? AxesDetail::few
+                                              : AxesDetail::least;
   Page page(at.height());
 
   const double span = shared.high - shared.low, factor = style.range ? 2 : 1 / span;
@@ -76,16 +80,19 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
     AxesBox axes = make_axes_box(domain_of(*solutions[i]), range, drawn_height, detail);
     axes.parts = parts_at_zero(*solutions[i]);
     const double left = widest_number(page, axes.u) + 65, below = 130;
-    const Box inside{cell.x + left, cell.y + below, cell.width - left - 85, cell.height - below - 10};
+    const Box inside{cell.x + left, cell.y + below, cell.width - left - 85,
+                     cell.height - below - 10};
     Eigen::AlignedBox3d fitted = make_axes_box(all, range, drawn_height, detail).space;
-    const Eigen::Vector3d edge = 0.01 * fitted.sizes();  // so that the lines on its border are inside
+    const Eigen::Vector3d edge =
+        0.01 * fitted.sizes();  // so that the lines on its border are inside
     fitted = {fitted.min() - edge, fitted.max() + edge};
     const View view(axes.space, fitted, inside, azimuth, elevation);
 
     auto renderer = vtkSmartPointer<vtkRenderer>::New();
     renderer->SetActiveCamera(view.camera());
     add_walls(*renderer, axes);
-    add_surface(*renderer, lifted(solutions[i], axes.factor), range, style.grid, view.towards_eye());
+    add_surface(*renderer, lifted(solutions[i], axes.factor), range, style.grid,
+                view.towards_eye());
     page.scene(renderer, inside);
     label_axes(page, view, axes, own ? style.last_name : "$u$");
     page.text({cell.centre().x, cell.top() + 20}, surfaces[i].title,
@@ -93,13 +100,15 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
   }
   if (at.bar_aside) {
     const Box first = at.cell(at.columns - 1);
-    draw_colour_bar(page, {first.right() + 20, first.y + 0.2 * first.height, bar_width, 0.6 * first.height}, shared,
-                    "$u$", marks);
+    draw_colour_bar(
+        page, {first.right() + 20, first.y + 0.2 * first.height, bar_width, 0.6 * first.height},
+        shared, "$u$", marks);
   }
   if (at.bar_in_cell) {
     const Box empty = at.cell(count);
-    draw_colour_bar(page, {empty.centre().x - 60, empty.y + 0.2 * empty.height, bar_width, 0.6 * empty.height}, shared,
-                    "$u$", marks);
+    draw_colour_bar(
+        page, {empty.centre().x - 60, empty.y + 0.2 * empty.height, bar_width, 0.6 * empty.height},
+        shared, "$u$", marks);
   }
   return page;
 }

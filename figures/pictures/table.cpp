@@ -42,17 +42,19 @@ CsvTable::CsvTable(const std::filesystem::path& path) : name_(path.string()) {
       continue;
     }
     if (fields.size() != header_.size())
-      throw Error(
-          fmt::format("{}, line {}: {} fields where the header has {}", name_, number, fields.size(), header_.size()));
+      throw Error(fmt::format("{}, line {}: {} fields where the header has {}", name_, number,
+                              fields.size(), header_.size()));
     rows_.push_back(std::move(fields));
   }
-  if (rows_.empty()) throw Error(fmt::format("{}: no rows; accepted: CSV with a header line", name_));
+  if (rows_.empty())
+    throw Error(fmt::format("{}: no rows; accepted: CSV with a header line", name_));
 }
 
 std::size_t CsvTable::column_index(std::string_view column) const {
   const auto found = std::find(header_.begin(), header_.end(), column);
   if (found == header_.end())
-    throw Error(fmt::format("{}: no column '{}'; it has {}", name_, column, fmt::join(header_, ", ")));
+    throw Error(
+        fmt::format("{}: no column '{}'; it has {}", name_, column, fmt::join(header_, ", ")));
   return static_cast<std::size_t>(found - header_.begin());
 }
 
@@ -65,7 +67,8 @@ double CsvTable::number(std::size_t row, std::string_view column) const {
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc{} || end != field.data() + field.size())
-    throw Error(fmt::format("{}, row {}: '{}' in column {} is not a number", name_, row + 1, field, column));
+    throw Error(fmt::format("{}, row {}: '{}' in column {} is not a number", name_, row + 1, field,
+                            column));
   return value;
 }
 

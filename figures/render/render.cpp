@@ -18,12 +18,15 @@ namespace {
 using namespace antilock::figures;
 
 int fail(const std::string& message) {
-  std::fputs(("render: " + message + "\n").c_str(), stderr);  // fmt::print would throw where it is full or closed
+  std::fputs(("render: " + message + "\n").c_str(),
+             stderr);  // fmt::print would throw where it is full or closed
   return 2;
 }
 
 int draw(int argc, char** argv) {
-  CLI::App app{"Renders one picture (PNG) from files that the tutorials wrote. Needs a display: see xvfb-run."};
+  CLI::App app{
+      "Renders one picture (PNG) from files that the tutorials wrote. Needs a display: see "
+      "xvfb-run."};
   app.require_subcommand(1);
   Request request;
   add_pictures(app, request);
@@ -34,14 +37,17 @@ int draw(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(std::string(error.what()) + " (see --help)");
   }
-  for (const std::string& input : request.inputs) antilock::check_not_an_input(request.out, {input});
+  for (const std::string& input : request.inputs)
+    antilock::check_not_an_input(request.out, {input});
   const DisplayConnection display = connect_display();
-  vtkObject::GlobalWarningDisplayOff();                         // what goes wrong is said in one line, below
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_WARNING);  // VTK 9.3 logs each line that it cuts out of a surface
+  vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said in one line, below
+  vtkLogger::SetStderrVerbosity(
+      vtkLogger::VERBOSITY_WARNING);  // VTK 9.3 logs each line that it cuts out of a surface
   const Page page = request.draw();
   if (request.check_layout) {
     if (const auto fault = page.layout_fault()) return fail(*fault);
-    fmt::print("smallest type {:.2f} pixels where the picture is {} wide\n", page.smallest_type(), shown_width);
+    fmt::print("smallest type {:.2f} pixels where the picture is {} wide\n", page.smallest_type(),
+               shown_width);
   }
   page.save(request.out, request.compression, request.half);
   return 0;

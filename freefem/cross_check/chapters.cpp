@@ -1,5 +1,5 @@
-// The scripts whose C++ chapter is not a solution on a triangle mesh: the string, P1 by hand, kernels, estimates, two
-// glued strings. Each number against the library's own.
+// The scripts whose C++ chapter is not a solution on a triangle mesh: the string, P1 by hand,
+// kernels, estimates, two glued strings. Each number against the library's own.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@
 namespace antilock::freefem {
 namespace {
 
-/// Strings fixed at both ends, one after the other in one vector: A1 = int u' v', the rest of the problem empty.
+/// Strings fixed at both ends, one after the other in one vector: A1 = int u' v', the rest of the
+/// problem empty.
 VariationalInequality strings(const std::vector<int>& cells) {
   VariationalInequality problem;
   std::vector<Eigen::Triplet<double>> entries;
@@ -40,15 +41,17 @@ VariationalInequality strings(const std::vector<int>& cells) {
   problem.a1.setFromTriplets(entries.begin(), entries.end());
   problem.b.resize(0, first);
   problem.load = Eigen::VectorXd::Zero(first);
-  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
+  problem.dirichlet_values =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   return problem;
 }
 
 /// The value at x of hat function `node` on a string of `cells` cells.
 double hat(int cells, int node, double x) { return std::max(0.0, 1 - std::abs(x * cells - node)); }
 
-/// B and M of the glue between a string of n + 1 cells and one of n: at two Gauss points of each piece between corners
-/// (pointwise), or against the inner hat functions of the lower string (mortar).
+/// B and M of the glue between a string of n + 1 cells and one of n: at two Gauss points of each
+/// piece between corners (pointwise), or against the inner hat functions of the lower string
+/// (mortar).
 void fill_glue(VariationalInequality& problem, int n, bool mortar) {
   std::vector<double> corners{1};
   for (int i = 0; i < n; ++i) corners.push_back(static_cast<double>(i) / n);
@@ -78,7 +81,8 @@ void fill_glue(VariationalInequality& problem, int n, bool mortar) {
 
 Numbers string_on_an_obstacle(int cells, const std::filesystem::path& folder) {
   run("00_string_on_an_obstacle", {"-cells", std::to_string(cells), "-out", folder});
-  const ScriptTable nodes = read_table(folder / "string.csv"), summary = read_table(folder / "summary.csv");
+  const ScriptTable nodes = read_table(folder / "string.csv"),
+                    summary = read_table(folder / "summary.csv");
   VariationalInequality problem = strings({cells});
   problem.load.setConstant(-32.0 / cells);
   problem.load(0) = problem.load(cells) = -16.0 / cells;
@@ -97,8 +101,10 @@ Numbers string_on_an_obstacle(int cells, const std::filesystem::path& folder) {
 }
 
 Numbers by_hand(int cells, double epsilon, const std::filesystem::path& folder) {
-  run("03_by_hand", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
-  const ScriptTable solution = read_table(folder / "solution.csv"), summary = read_table(folder / "summary.csv");
+  run("03_by_hand",
+      {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+  const ScriptTable solution = read_table(folder / "solution.csv"),
+                    summary = read_table(folder / "summary.csv");
   const Space space(structured_mesh(cells), p1());
   const VariationalInequality problem =
       assemble(Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space);
@@ -121,13 +127,15 @@ Numbers by_hand(int cells, double epsilon, const std::filesystem::path& folder) 
 Numbers kernels(int cells, const std::filesystem::path& folder) {
   Numbers numbers;
   const Scene scene(Body{paper_load}, StiffLayer{0});
-  const auto add = [&](const ScriptTable& table, Eigen::Index row, const TriangleMesh& mesh, int n) {
+  const auto add = [&](const ScriptTable& table, Eigen::Index row, const TriangleMesh& mesh,
+                       int n) {
     const Space conforming(mesh, p1()), broken(conforming, crouzeix_raviart());
     const int p1_kernel = layer_kernel_dimension(assemble(scene, conforming));
     const auto triangles = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
     const std::string at = fmt::format("{}, 1/h = {}: ", table.names[row], n);
     numbers.unknowns = std::max(numbers.unknowns, conforming.size());
-    numbers.count(at + "layer triangles", static_cast<double>(triangles), table.column("triangles")(row));
+    numbers.count(at + "layer triangles", static_cast<double>(triangles),
+                  table.column("triangles")(row));
     numbers.count(at + "P1 by ties", p1_kernel, table.column("kernel_by_ties")(row));
     if (n > 4) return;  // ranks on the small meshes only
     const int cr_kernel = layer_kernel_dimension(assemble(scene, broken));
@@ -138,11 +146,13 @@ Numbers kernels(int cells, const std::filesystem::path& folder) {
   for (int n = 4; n <= cells; n *= 2) {  // the script takes one unstructured mesh per run
     const TriangleMesh unstructured = unstructured_mesh(n);
     write_freefem_mesh(folder / "mesh.freefem.msh", unstructured);
-    run("07_kernel", {"-cells", std::to_string(n), "-mesh", folder / "mesh.freefem.msh", "-out", folder});
+    run("07_kernel",
+        {"-cells", std::to_string(n), "-mesh", folder / "mesh.freefem.msh", "-out", folder});
     const ScriptTable table = read_table(folder / "kernel.csv", 1);
     const Eigen::Index given = table.rows.rows() - 1;
     if (given < 1 || table.names[given] != "given" || table.column("cells")(given - 1) != n)
-      throw Error(fmt::format("kernel.csv: its last rows are not structured, 1/h = {}, and given", n));
+      throw Error(
+          fmt::format("kernel.csv: its last rows are not structured, 1/h = {}, and given", n));
     add(table, given - 1, structured_mesh(n), n);
     add(table, given, unstructured, n);
   }
@@ -167,11 +177,13 @@ Numbers estimates(int cells, const std::filesystem::path& folder) {
     numbers.took(table.names[row]);
     numbers.solved(conforming, locked);
     numbers.solved(broken, free);
-    const double kept = locked.u(conforming.contact_dofs()).maxCoeff(), all = free.u(broken.contact_dofs()).maxCoeff();
+    const double kept = locked.u(conforming.contact_dofs()).maxCoeff(),
+                 all = free.u(broken.contact_dofs()).maxCoeff();
     largest = std::max({largest, kept, all});
     const std::string at = fmt::format("epsilon = {:g}: ", epsilon);
     numbers.relative(at + "epsilon", epsilon, table.column("epsilon")(row));
-    // relative to the largest displacement of the layer: what P1 keeps falls like epsilon^2, far below its digits
+    // relative to the largest displacement of the layer: what P1 keeps falls like epsilon^2, far
+    // below its digits
     numbers.all.push_back({at + "P1 on Gamma_C", kept, table.column("ridge_p1")(row), largest});
     numbers.all.push_back({at + "CR on Gamma_C", all, table.column("ridge_cr")(row), largest});
   }
@@ -183,7 +195,8 @@ Numbers glued_strings(int cells, const std::filesystem::path& folder) {
   constexpr double load = 32, gap = 0.5;
   run("33_your_own_problem", {"-cells", std::to_string(cells), "-out", folder});
   const ScriptTable table = read_table(folder / "results.csv", 2);
-  if (table.rows.rows() != 26) throw Error(fmt::format("results.csv: {} rows; accepted 26", table.rows.rows()));
+  if (table.rows.rows() != 26)
+    throw Error(fmt::format("results.csv: {} rows; accepted 26", table.rows.rows()));
   Numbers numbers;
   Eigen::Index row = 0;
   for (const bool mortar : {false, true}) {
@@ -197,14 +210,18 @@ Numbers glued_strings(int cells, const std::filesystem::path& folder) {
     for (int k = 0; k <= 12; ++k, ++row) {
       problem.compliance = std::pow(10.0, -k);
       const Solution ours = active_set(problem);
-      const std::string at = fmt::format("{}, epsilon = 1e-{}: ", mortar ? "mortar" : "pointwise", k);
+      const std::string at =
+          fmt::format("{}, epsilon = 1e-{}: ", mortar ? "mortar" : "pointwise", k);
       numbers.took(table.names[row].substr(0, table.names[row].find(' ')));
       numbers.unknowns = problem.size();
       numbers.seconds += ours.seconds.total();
       numbers.relative(at + "epsilon", problem.compliance, table.column("epsilon")(row));
-      numbers.all.push_back({at + "energy", energy(problem, ours), table.column("energy")(row), load * gap});
-      numbers.all.push_back({at + "largest |u|", ours.u.cwiseAbs().maxCoeff(), table.column("moved")(row), gap});
-      numbers.all.push_back({at + "contact force", ours.lambda.sum(), table.column("force")(row), load});
+      numbers.all.push_back(
+          {at + "energy", energy(problem, ours), table.column("energy")(row), load * gap});
+      numbers.all.push_back(
+          {at + "largest |u|", ours.u.cwiseAbs().maxCoeff(), table.column("moved")(row), gap});
+      numbers.all.push_back(
+          {at + "contact force", ours.lambda.sum(), table.column("force")(row), load});
     }
   }
   return numbers;
@@ -213,8 +230,8 @@ Numbers glued_strings(int cells, const std::filesystem::path& folder) {
 namespace {
 
 /// u of a file x, y, u at the points of a space, each relative to the largest of ours.
-void compare_values(Numbers& numbers, const std::string& what, const Space& space, const Eigen::VectorXd& ours,
-                    const ScriptTable& theirs) {
+void compare_values(Numbers& numbers, const std::string& what, const Space& space,
+                    const Eigen::VectorXd& ours, const ScriptTable& theirs) {
   Points places(theirs.rows.rows(), 2);
   places << theirs.column("x"), theirs.column("y");
   const Eigen::VectorXd u = theirs.column("u")(match(space.dof_coordinates(), places));
@@ -226,27 +243,32 @@ void compare_values(Numbers& numbers, const std::string& what, const Space& spac
 }  // namespace
 
 Numbers mixed(int cells, double epsilon, const std::filesystem::path& folder) {
-  const TriangleMesh squares = unstructured_mesh(cells), block = with_free_sides(structured_mesh(cells, Domain{0}));
+  const TriangleMesh squares = unstructured_mesh(cells),
+                     block = with_free_sides(structured_mesh(cells, Domain{0}));
   const auto mesh = folder / "mesh.freefem.msh", body = folder / "body.freefem.msh";
   write_freefem_mesh(mesh, squares);
   write_freefem_mesh(body, block);
   run("28_mixed", {"-mesh", mesh, "-body", body, "-cells", std::to_string(cells), "-epsilon",
                    fmt::format("{}", epsilon), "-out", folder});
   const ScriptTable summary = read_table(folder / "summary.csv", 2);
-  if (summary.rows.rows() != 3) throw Error(fmt::format("summary.csv: {} rows; accepted 3", summary.rows.rows()));
+  if (summary.rows.rows() != 3)
+    throw Error(fmt::format("summary.csv: {} rows; accepted 3", summary.rows.rows()));
   Numbers numbers;
   const auto took = [&](Eigen::Index row, const Solution& ours) {
     numbers.took(summary.names[row].substr(0, summary.names[row].find(' ')));
     numbers.unknowns = std::max(numbers.unknowns, static_cast<int>(ours.u.size()));
     numbers.seconds += ours.seconds.total();
     numbers.freefem_seconds += summary.column("seconds")(row);
-    numbers.relative(summary.names[row] + ": contact force", ours.lambda.sum(), summary.column("force")(row));
+    numbers.relative(summary.names[row] + ": contact force", ours.lambda.sum(),
+                     summary.column("force")(row));
   };
 
   const Space p1_space(squares, p1());
-  const StrainProjection boxes = box_projection(squares, layer_strain(p1_space), 2.0 / cells, 2.0 / cells);
+  const StrainProjection boxes =
+      box_projection(squares, layer_strain(p1_space), 2.0 / cells, 2.0 / cells);
   const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
-  const Solution layer = active_set(project_strain(antilock::assemble(scene, p1_space), boxes, 0.5));
+  const Solution layer =
+      active_set(project_strain(antilock::assemble(scene, p1_space), boxes, 0.5));
   took(0, layer);
   compare_values(numbers, "boxes: u", p1_space, layer.u, read_table(folder / "boxes.csv"));
 

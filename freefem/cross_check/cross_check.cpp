@@ -43,10 +43,13 @@ SparseMatrix matrix(const std::filesystem::path& path, const std::vector<int>& o
   const ScriptTable table = read_table(path);
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index k = 0; k < table.rows.rows(); ++k) {
-    const double row = table.rows(k, 0), column = table.rows(k, 1), n = static_cast<double>(ours.size());
+    const double row = table.rows(k, 0), column = table.rows(k, 1),
+                 n = static_cast<double>(ours.size());
     if (!(row >= 0 && row < n && column >= 0 && column < n))
-      throw Error(fmt::format("{}: entry ({}, {}) of a matrix of {} rows", path.string(), row, column, n));
-    entries.emplace_back(ours[static_cast<int>(row)], ours[static_cast<int>(column)], table.rows(k, 2));
+      throw Error(
+          fmt::format("{}: entry ({}, {}) of a matrix of {} rows", path.string(), row, column, n));
+    entries.emplace_back(ours[static_cast<int>(row)], ours[static_cast<int>(column)],
+                         table.rows(k, 2));
   }
   SparseMatrix a(static_cast<Eigen::Index>(ours.size()), static_cast<Eigen::Index>(ours.size()));
   a.setFromTriplets(entries.begin(), entries.end());
@@ -60,8 +63,10 @@ std::vector<int> match(const Points& ours, const Points& theirs) {
     throw Error(fmt::format("match: {} unknowns here, {} there", ours.rows(), theirs.rows()));
   const auto cell = [](double x) { return std::llround(x / same_place); };
   std::map<std::pair<long long, long long>, int> row;
-  for (Eigen::Index i = 0; i < theirs.rows(); ++i) row[{cell(theirs(i, 0)), cell(theirs(i, 1))}] = static_cast<int>(i);
-  if (static_cast<Eigen::Index>(row.size()) != theirs.rows()) throw Error("match: two unknowns at one place");
+  for (Eigen::Index i = 0; i < theirs.rows(); ++i)
+    row[{cell(theirs(i, 0)), cell(theirs(i, 1))}] = static_cast<int>(i);
+  if (static_cast<Eigen::Index>(row.size()) != theirs.rows())
+    throw Error("match: two unknowns at one place");
   std::vector<int> rows(ours.rows(), -1);
   std::vector<char> taken(ours.rows(), 0);
   for (Eigen::Index i = 0; i < ours.rows(); ++i) {
@@ -71,14 +76,15 @@ std::vector<int> match(const Points& ours, const Points& theirs) {
             found != row.end() && rows[i] < 0)
           rows[i] = found->second;
     if (rows[i] < 0 || taken[rows[i]]++)
-      throw Error(fmt::format("match: no unknown of its own at ({:.9g}, {:.9g})", ours(i, 0), ours(i, 1)));
+      throw Error(
+          fmt::format("match: no unknown of its own at ({:.9g}, {:.9g})", ours(i, 0), ours(i, 1)));
   }
   return rows;
 }
 
 Discretisation assemble(const Space& space, const std::filesystem::path& folder) {
-  run("matrices",
-      {"-mesh", mesh_in(folder, space), "-element", space.element().name() == "CR" ? "P1nc" : "P1", "-out", folder});
+  run("matrices", {"-mesh", mesh_in(folder, space), "-element",
+                   space.element().name() == "CR" ? "P1nc" : "P1", "-out", folder});
   const ScriptTable unknowns = read_table(folder / "unknowns.csv");
   const std::vector<int> theirs = match(space.dof_coordinates(), places(unknowns));
   std::vector<int> ours(theirs.size());
@@ -91,18 +97,21 @@ Discretisation assemble(const Space& space, const std::filesystem::path& folder)
     if (clamped(theirs[i]) > 0.5) d.clamped.push_back(i);
     if (contact(theirs[i]) > 0.5) d.contact.push_back(i);
   }
-  std::sort(d.contact.begin(), d.contact.end(),
-            [&](int i, int j) { return space.dof_coordinates()(i, 0) < space.dof_coordinates()(j, 0); });
+  std::sort(d.contact.begin(), d.contact.end(), [&](int i, int j) {
+    return space.dof_coordinates()(i, 0) < space.dof_coordinates()(j, 0);
+  });
   return d;
 }
 
-Result solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
-             const std::vector<std::string>& options) {
-  std::vector<std::string> all{"-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-out", folder};
+Result solve(const std::string& script, const Space& space, double epsilon,
+             const std::filesystem::path& folder, const std::vector<std::string>& options) {
+  std::vector<std::string> all{
+      "-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-out", folder};
   all.insert(all.end(), options.begin(), options.end());
   run(script, all);
 
-  const ScriptTable solution = read_table(folder / "solution.csv"), contact = read_table(folder / "contact.csv"),
+  const ScriptTable solution = read_table(folder / "solution.csv"),
+                    contact = read_table(folder / "contact.csv"),
                     summary = read_table(folder / "summary.csv", 1);
   Result answer;
   answer.road = summary.names.at(0);
@@ -113,7 +122,8 @@ Result solve(const std::string& script, const Space& space, double epsilon, cons
   const Eigen::VectorXd x = contact.column("x")(order);
   const std::vector<int>& here = space.contact_dofs();
   const bool as_many = x.size() == static_cast<Eigen::Index>(here.size());
-  if (x.size() > 0 && !(as_many && (x - space.dof_coordinates().col(0)(here)).cwiseAbs().maxCoeff() < same_place))
+  if (x.size() > 0 &&
+      !(as_many && (x - space.dof_coordinates().col(0)(here)).cwiseAbs().maxCoeff() < same_place))
     throw Error(script + ": its contact unknowns are others than ours");
   answer.energy = summary.column("energy")(0);
   answer.residual = summary.column("residual")(0);
@@ -122,11 +132,13 @@ Result solve(const std::string& script, const Space& space, double epsilon, cons
   return answer;
 }
 
-History uzawa_history(const Space& space, double epsilon, double rho, int steps, const std::filesystem::path& folder) {
+History uzawa_history(const Space& space, double epsilon, double rho, int steps,
+                      const std::filesystem::path& folder) {
   run("04_reference_solution",
-      {"-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-solver", "uzawa", "-rho",
-       fmt::format("{}", rho), "-steps", std::to_string(steps), "-out", folder});
-  const ScriptTable history = read_table(folder / "history.csv"), summary = read_table(folder / "summary.csv", 1);
+      {"-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-solver", "uzawa",
+       "-rho", fmt::format("{}", rho), "-steps", std::to_string(steps), "-out", folder});
+  const ScriptTable history = read_table(folder / "history.csv"),
+                    summary = read_table(folder / "summary.csv", 1);
   return {summary.names.at(0), history.column("change"), summary.column("seconds")(0)};
 }
 
@@ -135,12 +147,14 @@ void run_elastic(const std::string& script, const TriangleMesh& mesh, double par
   const auto file = folder / "mesh.freefem.msh";
   write_freefem_mesh(file, mesh);
   // 16 cells: of Taylor-Hood's own, graded mesh; its force is right to 0.03 %
-  run(script, {"-mesh", file, script == "32_coating" ? "-thickness" : "-epsilon", fmt::format("{}", parameter),
-               "-cells", "16", "-out", folder});
+  run(script, {"-mesh", file, script == "32_coating" ? "-thickness" : "-epsilon",
+               fmt::format("{}", parameter), "-cells", "16", "-out", folder});
 }
 
-ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space) {
-  const ScriptTable x = read_table(folder / (name + "_x.csv")), y = read_table(folder / (name + "_y.csv")),
+ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name,
+                             const VectorSpace& space) {
+  const ScriptTable x = read_table(folder / (name + "_x.csv")),
+                    y = read_table(folder / (name + "_y.csv")),
                     summary = read_table(folder / (name + "_summary.csv"), 1),
                     contact = read_table(folder / (name + "_contact.csv"));
   ElasticAnswer answer;
@@ -155,7 +169,8 @@ ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::str
   return answer;
 }
 
-ElasticAnswer friction_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space) {
+ElasticAnswer friction_answer(const std::filesystem::path& folder, const std::string& name,
+                              const VectorSpace& space) {
   ElasticAnswer answer = elastic_answer(folder, name, space);
   const ScriptTable floor = read_table(folder / (name + "_floor.csv"));
   const Eigen::VectorXd normal = answer.force, tangential = floor.column("force")(by_x(floor));
@@ -174,12 +189,13 @@ void run_plate(const TriangleMesh& mesh, double epsilon, const std::filesystem::
   run("27_plate", {"-mesh", file, "-epsilon", fmt::format("{}", epsilon), "-out", folder});
 }
 
-PlateAnswer plate_answer(const std::filesystem::path& folder, const std::string& name, const Space& deflection) {
+PlateAnswer plate_answer(const std::filesystem::path& folder, const std::string& name,
+                         const Space& deflection) {
   const ScriptTable values = read_table(folder / (name + ".csv")),
                     summary = read_table(folder / (name + "_summary.csv"), 1);
   const std::vector<int> order = match(deflection.dof_coordinates(), places(values));
-  return {summary.names.at(0), values.column("u")(order), values.column("force")(order), summary.column("energy")(0),
-          summary.column("seconds")(0)};
+  return {summary.names.at(0), values.column("u")(order), values.column("force")(order),
+          summary.column("energy")(0), summary.column("seconds")(0)};
 }
 
 Comparison compare(const Space& space, const VariationalInequality& problem, const Solution& ours,
@@ -190,13 +206,14 @@ Comparison compare(const Space& space, const VariationalInequality& problem, con
   c.energy = std::abs(j - theirs.energy) / std::abs(j);
   if (problem.bounds.unknowns.empty()) return c;
   if (theirs.gap.size() != static_cast<Eigen::Index>(problem.bounds.unknowns.size()))
-    throw Error(
-        fmt::format("compare: {} contact unknowns here, {} there", problem.bounds.unknowns.size(), theirs.gap.size()));
+    throw Error(fmt::format("compare: {} contact unknowns here, {} there",
+                            problem.bounds.unknowns.size(), theirs.gap.size()));
   const Eigen::MatrixX3d table = contact_table({space, problem, ours});  // x, gap, pressure
   for (Eigen::Index i = 0; i < table.rows(); ++i) {
-    const bool undecided = std::max({std::abs(table(i, 1)), std::abs(theirs.gap(i)), std::abs(table(i, 2)),
-                                     std::abs(theirs.pressure(i))}) < 1e-10;
-    if (!undecided && ours.active[i] != (theirs.pressure(i) != 0)) ++c.contact_disagree;  // exactly 0 where free
+    const bool undecided = std::max({std::abs(table(i, 1)), std::abs(theirs.gap(i)),
+                                     std::abs(table(i, 2)), std::abs(theirs.pressure(i))}) < 1e-10;
+    if (!undecided && ours.active[i] != (theirs.pressure(i) != 0))
+      ++c.contact_disagree;  // exactly 0 where free
   }
   return c;
 }

@@ -40,12 +40,16 @@ std::string markdown(const std::vector<Line>& lines, double epsilon) {
       "|\n|---|---|---|---:|---:|---|---:|---:|\n");
   const auto time = [](double s) { return s > 0 ? fmt::format("{:.3g} s", s) : std::string("-"); };
   for (const Line& l : lines)
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", l.tutorial, l.what, l.road, l.unknowns,
-                        std::isinf(l.difference) ? std::string("no answer") : fmt::format("{:.1e}", l.difference),
-                        l.contact, time(l.seconds), time(l.freefem_seconds));
+    text += fmt::format(
+        "| {} | {} | {} | {} | {} | {} | {} | {} |\n", l.tutorial, l.what, l.road, l.unknowns,
+        std::isinf(l.difference) ? std::string("no answer") : fmt::format("{:.1e}", l.difference),
+        l.contact, time(l.seconds), time(l.freefem_seconds));
   text += fmt::format(note, epsilon, bound, model_bound);
-  if (std::any_of(lines.begin(), lines.end(), [](const Line& l) { return l.contact == "none moves"; }))
-    text += "`none moves`: P1 locks, all gaps are 0 to solver tolerance, so there is no contact set to compare.\n";
+  if (std::any_of(lines.begin(), lines.end(),
+                  [](const Line& l) { return l.contact == "none moves"; }))
+    text +=
+        "`none moves`: P1 locks, all gaps are 0 to solver tolerance, so there is no contact set to "
+        "compare.\n";
   return text;
 }
 
@@ -54,8 +58,8 @@ void write_files(const std::vector<Line>& lines, double epsilon, const std::file
   write_file(out / "results.csv", [&](std::ostream& file) {
     file << "tutorial,problem,road,unknowns,difference,contact_set,cpp_seconds,freefem_seconds\n";
     for (const Line& l : lines)
-      file << fmt::format("{},\"{}\",\"{}\",{},{},{},{:.6g},{:.6g}\n", l.tutorial, l.what, l.road, l.unknowns,
-                          l.difference, l.contact, l.seconds, l.freefem_seconds);
+      file << fmt::format("{},\"{}\",\"{}\",{},{},{},{:.6g},{:.6g}\n", l.tutorial, l.what, l.road,
+                          l.unknowns, l.difference, l.contact, l.seconds, l.freefem_seconds);
   });
   write_file(table, [&](std::ostream& file) { file << markdown(lines, epsilon); });
 }

@@ -20,7 +20,9 @@
 namespace antilock::freefem {
 namespace {
 
-Scene contact_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
+Scene contact_scene(double epsilon) {
+  return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
+}
 
 std::filesystem::path written(const TriangleMesh& mesh, const std::filesystem::path& folder) {
   write_freefem_mesh(folder / "mesh.freefem.msh", mesh);
@@ -51,7 +53,9 @@ void Numbers::relative(const std::string& name, double ours, double theirs) {
   all.push_back({name, ours, theirs, std::abs(ours)});
 }
 
-void Numbers::count(const std::string& name, double ours, double theirs) { all.push_back({name, ours, theirs, 1}); }
+void Numbers::count(const std::string& name, double ours, double theirs) {
+  all.push_back({name, ours, theirs, 1});
+}
 
 void Numbers::took(const std::string& roads) {
   std::istringstream words(roads);
@@ -68,8 +72,8 @@ void Numbers::solved(const Space& space, const Solution& solution) {
 
 Numbers roundoff(const std::string& element, int cells, const std::filesystem::path& folder) {
   const Space space(structured_mesh(cells), antilock::element(element));
-  run("18_roundoff",
-      {"-mesh", written(space.mesh(), folder), "-element", element == "CR" ? "P1nc" : "P1", "-out", folder});
+  run("18_roundoff", {"-mesh", written(space.mesh(), folder), "-element",
+                      element == "CR" ? "P1nc" : "P1", "-out", folder});
   const ScriptTable table = results(folder / "results.csv", 17, 1);
   SceneSweep sweep(contact_scene(1), space);
   Numbers numbers;
@@ -99,7 +103,8 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
                           Scene(body, StiffLayer{0}, obstacle),
                           Scene(body, VentcelLayer{}, obstacle),
                           Scene(body, ThinLayer{epsilon}, obstacle)};
-  run("23_effects", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+  run("23_effects",
+      {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
   const ScriptTable table = results(folder / "effects.csv", 8, 1);
   Numbers numbers;
   for (int i = 0; i < 8; ++i) {
@@ -123,7 +128,8 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
 
 Numbers limits(int cells, const std::filesystem::path& folder) {
   const TriangleMesh structured = structured_mesh(cells), unstructured = unstructured_mesh(cells);
-  run("11_propositions", {"-cells", std::to_string(cells), "-mesh", written(unstructured, folder), "-out", folder});
+  run("11_propositions",
+      {"-cells", std::to_string(cells), "-mesh", written(unstructured, folder), "-out", folder});
   const ScriptTable table = results(folder / "limits.csv", 36, 2);
   const Reference zero{[](double, double) { return 0.0; },
                        [](double, double) { return Eigen::Vector2d::Zero().eval(); },
@@ -133,7 +139,8 @@ Numbers limits(int cells, const std::filesystem::path& folder) {
   for (const Element* element : {&p1(), &crouzeix_raviart()})
     for (const TriangleMesh* mesh : {&structured, &unstructured}) {
       const Space space(*mesh, *element);
-      const std::string method = element->name() + (mesh == &structured ? " structured" : " unstructured");
+      const std::string method =
+          element->name() + (mesh == &structured ? " structured" : " unstructured");
       SceneSweep sweep(contact_scene(0), space);
       const Solution limit = sweep.solve();
       double largest = 0;
@@ -175,7 +182,8 @@ Numbers certificate(int cells, const std::filesystem::path& folder) {
     numbers.solved(above, high);
     numbers.solved(below, low);
     const ConformingCompanion v = p1_companion(high);
-    const Certificate found = certify(contact_scene(epsilons[i]), {below, lower.problem(), low}, {.companion = &v});
+    const Certificate found =
+        certify(contact_scene(epsilons[i]), {below, lower.problem(), low}, {.companion = &v});
     numbers.count(at + "epsilon", epsilons[i], table.column("epsilon")(i));
     numbers.relative(at + "upper", energy(upper.problem(), high), table.column("upper")(i));
     numbers.relative(at + "cr", energy(lower.problem(), low), table.column("cr")(i));
@@ -196,13 +204,16 @@ std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder) {
     const Space space(mesh, i == 0 ? p1() : p2());
     const VariationalInequality problem = assemble(contact_scene(1e-2), space);
     const Solution solution = active_set(problem);
-    const Eigen::VectorXd w = (2 * std::acos(-1) * space.dof_coordinates().col(0).array()).sin(), slope = problem.b * w;
+    const Eigen::VectorXd w = (2 * std::acos(-1) * space.dof_coordinates().col(0).array()).sin(),
+                          slope = problem.b * w;
     const std::string of = space.element().name() + ": ";
     both[i].took(table.names[i]);
     both[i].solved(space, solution);
     both[i].count(of + "unknowns", space.size(), table.column("unknowns")(i));
-    both[i].relative(of + "cost", std::sqrt(slope.dot(problem.m.cwiseProduct(slope))), table.column("cost")(i));
-    both[i].relative(of + "ridge", solution.u(space.contact_dofs()).maxCoeff(), table.column("ridge")(i));
+    both[i].relative(of + "cost", std::sqrt(slope.dot(problem.m.cwiseProduct(slope))),
+                     table.column("cost")(i));
+    both[i].relative(of + "ridge", solution.u(space.contact_dofs()).maxCoeff(),
+                     table.column("ridge")(i));
     both[i].relative(of + "energy", energy(problem, solution), table.column("energy")(i));
     both[i].freefem_seconds = table.column("seconds")(i);
   }

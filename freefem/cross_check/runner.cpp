@@ -29,21 +29,25 @@ std::vector<std::string> split(const std::string& line) {
 
 void run(const std::string& script, const std::vector<std::string>& options) {
   using tutorial::in_shell;
-  std::string command = fmt::format("{} {}", in_shell(ANTILOCK_FREEFEM_FOLDER "/run"), in_shell(script));
+  std::string command =
+      fmt::format("{} {}", in_shell(ANTILOCK_FREEFEM_FOLDER "/run"), in_shell(script));
   for (const std::string& option : options) command.append(" ").append(in_shell(option));
   command.append(" 2>&1 >/dev/null");  // standard error alone
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw Error("freefem/run cannot be started");
   std::string words;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) words += c == '\n' ? ' ' : static_cast<char>(c);
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe))
+    words += c == '\n' ? ' ' : static_cast<char>(c);
   const int status = pclose(pipe);
-  if (status == 0) {  // FreeFEM is there and new enough: freefem/run does not start it once more to ask
+  if (status ==
+      0) {  // FreeFEM is there and new enough: freefem/run does not start it once more to ask
     const char* program = std::getenv("FREEFEM");
     ::setenv("FREEFEM_CHECKED", program == nullptr ? "FreeFem++" : program, 1);
     return;
   }
   words.erase(words.find_last_not_of(' ') + 1);
-  if (words.empty()) words = fmt::format("freefem/run {} ended with status {}", script, WEXITSTATUS(status));
+  if (words.empty())
+    words = fmt::format("freefem/run {} ended with status {}", script, WEXITSTATUS(status));
   throw Error(words);
 }
 
@@ -60,13 +64,15 @@ ScriptTable read_table(const std::filesystem::path& path, int text) {
   std::string line;
   if (!std::getline(in, line)) throw Error(path.string() + ": cannot be read, or is empty");
   ScriptTable table{split(line), {}, {}};
-  if (static_cast<int>(table.header.size()) <= text) throw Error(path.string() + ": no column of numbers");
+  if (static_cast<int>(table.header.size()) <= text)
+    throw Error(path.string() + ": no column of numbers");
   std::vector<double> values;
   for (int number = 2; std::getline(in, line); ++number) {
     const auto fields = split(line);
     const std::string where = fmt::format("{}, line {}: ", path.string(), number);
     if (fields.size() != table.header.size())
-      throw Error(where + fmt::format("{} fields; accepted {}", fields.size(), table.header.size()));
+      throw Error(where +
+                  fmt::format("{} fields; accepted {}", fields.size(), table.header.size()));
     const auto numbers = fields.begin() + text;
     table.names.push_back(fmt::format("{}", fmt::join(fields.begin(), numbers, " ")));
     for (auto field = numbers; field != fields.end(); ++field) {
@@ -80,7 +86,8 @@ ScriptTable read_table(const std::filesystem::path& path, int text) {
   table.header.erase(table.header.begin(), table.header.begin() + text);
   const auto columns = static_cast<Eigen::Index>(table.header.size());
   using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  table.rows = Eigen::Map<const ByRows>(values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns);
+  table.rows = Eigen::Map<const ByRows>(
+      values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns);
   return table;
 }
 

@@ -3,8 +3,8 @@
 // Run:    antilock exact tutorials/scenes/figure8.toml < points.csv     the exact solution at points
 // Run:    antilock sweep tutorials/scenes/figure7.toml --epsilon 1:1e-6:7
 //
-// Every subcommand ends with status 0, or with one line on standard error and nothing written: status 2 for a question
-// that cannot be asked, 3 for a solve that did not get there.
+// Every subcommand ends with status 0, or with one line on standard error and nothing written:
+// status 2 for a question that cannot be asked, 3 for a solve that did not get there.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,9 @@ struct Subcommand {
   const char* summary;
   const char* old_name = "";  ///< the name in 0.2, which works as well and is not shown
 
-  bool is_called(const char* word) const { return std::strcmp(word, name) == 0 || std::strcmp(word, old_name) == 0; }
+  bool is_called(const char* word) const {
+    return std::strcmp(word, name) == 0 || std::strcmp(word, old_name) == 0;
+  }
 };
 
 const std::vector<Subcommand>& subcommands() {
@@ -36,11 +38,13 @@ const std::vector<Subcommand>& subcommands() {
       {"run",
        [](int, char** argv) -> int {
          tutorial::exec_program("run_scene", argv);
-         throw Error("antilock run: run_scene is not beside this program; accepted: the folder of both");
+         throw Error(
+             "antilock run: run_scene is not beside this program; accepted: the folder of both");
        },
        "solve a scene: run_scene, the same options"},
       {"exact", subcommands::exact, "the exact solution of a scene at given points", "truth"},
-      {"estimate", subcommands::estimate, "the error of another program's solution, with a proved bound", "judge"},
+      {"estimate", subcommands::estimate,
+       "the error of another program's solution, with a proved bound", "judge"},
       {"lockcheck", subcommands::lockcheck, "whether the matrices of another program lock"},
       {"sweep", subcommands::sweep, "a scene over epsilons and meshes: one table"}};
   return all;

@@ -32,34 +32,40 @@ std::filesystem::path self() {
   return std::filesystem::read_symlink("/proc/self/exe", ignored);
 }
 
-/// What glibc's malloc is asked for where Linux gives large pages to who asks ("madvise"; "always" and "never" leave
-/// nothing to ask): pages of 2 MB, and to keep what is freed. A factor of half a million unknowns touches 200,000 pages
-/// of 4 kB; on a virtual machine their faults and look-ups took two fifths of the processor's seconds.
+/// What glibc's malloc is asked for where Linux gives large pages to who asks ("madvise"; "always"
+/// and "never" leave nothing to ask): pages of 2 MB, and to keep what is freed. A factor of half a
+/// million unknowns touches 200,000 pages of 4 kB; on a virtual machine their faults and look-ups
+/// took two fifths of the processor's seconds.
 std::string large_pages() {
   std::string setting;
   std::getline(std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"), setting);
   if (setting.find("[madvise]") == std::string::npos) return "";
-  return "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=4294967296:glibc.malloc.trim_threshold=4294967296";
+  return "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=4294967296:glibc.malloc.trim_"
+         "threshold=4294967296";
 }
 
 #if defined(__linux__)
-// Bytes of each further thread of OpenBLAS: its buffer, a stack of 8e6, and up to 67e6 of malloc's. 209e6 were seen.
+// Bytes of each further thread of OpenBLAS: its buffer, a stack of 8e6, and up to 67e6 of malloc's.
+// 209e6 were seen.
 constexpr std::size_t blas_thread = 220'000'000;
 
 /// The number of threads that OpenBLAS starts with.
 long blas_threads(char** environment) {
-  for (const std::string_view variable : {"OPENBLAS_NUM_THREADS=", "GOTO_NUM_THREADS=", "OMP_NUM_THREADS="})
+  for (const std::string_view variable :
+       {"OPENBLAS_NUM_THREADS=", "GOTO_NUM_THREADS=", "OMP_NUM_THREADS="})
     for (char** setting = environment; *setting != nullptr; ++setting)
       if (std::string_view(*setting).substr(0, variable.size()) == variable)
-        if (const long threads = std::strtol(*setting + variable.size(), nullptr, 10); threads > 0) return threads;
+        if (const long threads = std::strtol(*setting + variable.size(), nullptr, 10); threads > 0)
+          return threads;
   return sysconf(_SC_NPROCESSORS_ONLN);
 }
 
-/// Under a limit of the process (ulimit -v, ulimit -d): starts the program again with one thread where there is no room
-/// for those that OpenBLAS would start, and ends it with a line where there is none for one.
-/// OpenBLAS maps a buffer for each of its threads while it is loaded (0.3.29, Debian 13), and asks without end where it
-/// gets none (OpenBLAS #5289), so that no function of the program would be reached. This one is called before the
-/// libraries' own constructors, and so it uses nothing that they prepare: no memory of malloc's, no `environ`.
+/// Under a limit of the process (ulimit -v, ulimit -d): starts the program again with one thread
+/// where there is no room for those that OpenBLAS would start, and ends it with a line where there
+/// is none for one. OpenBLAS maps a buffer for each of its threads while it is loaded (0.3.29,
+/// Debian 13), and asks without end where it gets none (OpenBLAS #5289), so that no function of the
+/// program would be reached. This one is called before the libraries' own constructors, and so it
+/// uses nothing that they prepare: no memory of malloc's, no `environ`.
 void require_room_for_blas(int, char** argv, char** environment) {
   const auto limited = [](auto resource) {
     rlimit limit{};
@@ -74,20 +80,23 @@ void require_room_for_blas(int, char** argv, char** environment) {
     char* changed[most + 2] = {one_thread};
     int count = 1;
     for (char** setting = environment; *setting != nullptr && count < most; ++setting)
-      if (std::string_view(*setting).substr(0, 21) != "OPENBLAS_NUM_THREADS=") changed[count++] = *setting;
+      if (std::string_view(*setting).substr(0, 21) != "OPENBLAS_NUM_THREADS=")
+        changed[count++] = *setting;
     execve("/proc/self/exe", argv, changed);
   }
   if (can_map(blas_buffer)) return;  // no second start was to be had
   constexpr std::string_view line =
-      ": out of memory: the BLAS needs a buffer of 128 MB, the limit of this process (ulimit -v, ulimit -d) leaves "
+      ": out of memory: the BLAS needs a buffer of 128 MB, the limit of this process (ulimit -v, "
+      "ulimit -d) leaves "
       "less; accepted: a higher limit\n";
   const std::string_view path = argv[0] == nullptr ? "antilock" : argv[0];
   const std::string_view name = path.substr(path.rfind('/') + 1);
-  [[maybe_unused]] const auto written = write(2, name.data(), name.size()) + write(2, line.data(), line.size());
+  [[maybe_unused]] const auto written =
+      write(2, name.data(), name.size()) + write(2, line.data(), line.size());
   _exit(3);
 }
-[[gnu::section(".preinit_array"), gnu::used]] void (*const before_the_libraries)(int, char**,
-                                                                                 char**) = require_room_for_blas;
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const before_the_libraries)(int, char**, char**) = require_room_for_blas;
 #endif
 
 }  // namespace
@@ -121,7 +130,8 @@ std::string sibling_path(const std::string& program) {
 
 std::string in_shell(const std::string& word) {
   const auto plain = [](unsigned char c) {
-    return std::isalnum(c) != 0 || std::string_view("_-+./,:=@%").find(static_cast<char>(c)) != std::string_view::npos;
+    return std::isalnum(c) != 0 ||
+           std::string_view("_-+./,:=@%").find(static_cast<char>(c)) != std::string_view::npos;
   };
   if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
   std::string quoted = "'";
@@ -131,8 +141,10 @@ std::string in_shell(const std::string& word) {
 
 std::optional<int> parse(CLI::App& line, int argc, char** argv, bool silent) {
   const auto refuse = [&](const std::string& message) {
-    // fmt::print would throw where standard error is full or closed, and end the program by a signal
-    const std::string said = fmt::format("{}: {} (see --help)\n", line.get_name(), printable(message, 4000));
+    // fmt::print would throw where standard error is full or closed, and end the program by a
+    // signal
+    const std::string said =
+        fmt::format("{}: {} (see --help)\n", line.get_name(), printable(message, 4000));
     if (!silent) std::fputs(said.c_str(), stderr);
     return 2;
   };
@@ -147,7 +159,8 @@ std::optional<int> parse(CLI::App& line, int argc, char** argv, bool silent) {
     return refuse(error.what());
   }
   for (const CLI::Option* option : line.get_options())  // NaN is in any range for CLI11
-    if (option->count() > 0 && option->get_type_name().rfind("FLOAT", 0) == 0 && std::isnan(option->as<double>()))
+    if (option->count() > 0 && option->get_type_name().rfind("FLOAT", 0) == 0 &&
+        std::isnan(option->as<double>()))
       return refuse(option->get_name() + ": nan; accepted: a number");
   reexec_tuned(argv);
   return std::nullopt;

@@ -26,11 +26,12 @@ class Report {
   void claim_within(double value, double low, double high, const std::string& what);
   /// Does the same for the orders of `y` in h between each row and the next. These are observed
   /// orders, not proved ones.
-  void claim_orders(const Table& rows, const std::string& y, double low, double high, const std::string& what);
+  void claim_orders(const Table& rows, const std::string& y, double low, double high,
+                    const std::string& what);
   /// Does the same for the order of y in x, a least-squares slope. The line ends with the order,
   /// the orders from row to row, and the interval. With fewer than four rows it calls not_judged.
-  void claim_order(const Table& rows, const std::string& y, const std::string& x, double low, double high,
-                   const std::string& what);
+  void claim_order(const Table& rows, const std::string& y, const std::string& x, double low,
+                   double high, const std::string& what);
   /// Prints `NOT JUDGED: ...` with the reason why this run cannot decide a claim, so that no claim
   /// is left out in silence.
   void not_judged(const std::string& why);

@@ -3,9 +3,10 @@
 // Run:    run_scene tutorials/scenes/figure8.toml --out results/figure8
 // Takes:  about a second for 1/h = 64; unstructured meshes of 1/h = 128 take several.
 //
-// The way of the data is that of every tutorial: scene -> mesh -> space -> discrete problem -> solution -> files.
-// What this program promises: an answer with exit status 0, or one line on standard error and no file at all:
-// status 2 for a question that cannot be asked (the line names file and key), 3 for a solve that did not get there.
+// The way of the data is that of every tutorial: scene -> mesh -> space -> discrete problem ->
+// solution -> files. What this program promises: an answer with exit status 0, or one line on
+// standard error and no file at all: status 2 for a question that cannot be asked (the line names
+// file and key), 3 for a solve that did not get there.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -69,8 +70,8 @@ Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/f
 )help";
 // clang-format on
 
-/// Which of the processes that mpiexec started this is, and how many there are, without MPI: from the environment that
-/// Open MPI, MPICH and Slurm set. 0 of 1 without mpiexec.
+/// Which of the processes that mpiexec started this is, and how many there are, without MPI: from
+/// the environment that Open MPI, MPICH and Slurm set. 0 of 1 without mpiexec.
 int mpi_variable(const char* by_open_mpi, const char* by_others, int alone) {
   for (const char* name : {by_open_mpi, by_others})
     if (const char* value = std::getenv(name)) return std::atoi(value);
@@ -79,31 +80,36 @@ int mpi_variable(const char* by_open_mpi, const char* by_others, int alone) {
 int mpi_rank() { return mpi_variable("OMPI_COMM_WORLD_RANK", "PMI_RANK", 0); }
 int mpi_size() { return mpi_variable("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", 1); }
 
-/// Scenes with solver = "petsc" are answered by the program beside this one, alone or on many ranks.
+/// Scenes with solver = "petsc" are answered by the program beside this one, alone or on many
+/// ranks.
 void check_solver(const SceneFile& file, bool for_petsc, char** argv) {
   if (file.method.solver == "petsc") {
     tutorial::exec_program("run_scene_petsc", argv);
-    throw Error(file.name +
-                ": method.solver: \"petsc\" is not built here, since PETSc or MPI was missing; accepted: "
-                "\"active-set\", \"uzawa\"");
+    throw Error(
+        file.name +
+        ": method.solver: \"petsc\" is not built here, since PETSc or MPI was missing; accepted: "
+        "\"active-set\", \"uzawa\"");
   }
   if (for_petsc)
-    throw Error(file.name + ": --restart and --direct go with solver = \"petsc\" only; accepted: a run without it");
+    throw Error(
+        file.name +
+        ": --restart and --direct go with solver = \"petsc\" only; accepted: a run without it");
   if (mpi_size() > 1)
-    throw Error(file.name +
-                ": method.solver: was started on several ranks, and PETSc or MPI was missing when this was "
-                "built; accepted: a run without mpiexec");
+    throw Error(
+        file.name +
+        ": method.solver: was started on several ranks, and PETSc or MPI was missing when this was "
+        "built; accepted: a run without mpiexec");
 }
 
-/// A line on the terminal that follows a long solve, from its second second on, and the end of one that takes longer
-/// than it may.
+/// A line on the terminal that follows a long solve, from its second second on, and the end of one
+/// that takes longer than it may.
 ProgressHook follower(double most_seconds) {
   return [watch = Stopwatch(), shown = 1.0, most_seconds](const Progress& now) mutable {
     const double seconds = watch.seconds();
     if (seconds > shown + 1 && ::isatty(STDERR_FILENO) != 0) {
       shown = seconds;
-      fmt::print(stderr, "\r  {:.0f} s, {} {}: relative error about {:.0e}, asked for {:.0e} ", seconds, now.stage,
-                 now.step, now.error, now.tolerance);
+      fmt::print(stderr, "\r  {:.0f} s, {} {}: relative error about {:.0e}, asked for {:.0e} ",
+                 seconds, now.stage, now.step, now.error, now.tolerance);
     }
     return seconds <= most_seconds;
   };
@@ -120,11 +126,13 @@ struct Asked {
 /// s / epsilon^2, as a quotient where it is beyond double precision.
 std::string across(const StiffLayer& layer) {
   const double square = layer.epsilon * layer.epsilon, stiffness = layer.s / square;
-  return square > 0 && std::isfinite(stiffness) ? fmt::format("{:g}", stiffness)
-                                                : fmt::format("{:g} / {:g}^2", layer.s, layer.epsilon);
+  return square > 0 && std::isfinite(stiffness)
+             ? fmt::format("{:g}", stiffness)
+             : fmt::format("{:g} / {:g}^2", layer.s, layer.epsilon);
 }
 
-void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Report& report, char** argv) {
+void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Report& report,
+            char** argv) {
   const SceneFile file = read_scene_file(scene);
   const MethodRequest& method = file.method;
   check_solver(file, asked.restart || asked.direct, argv);
@@ -140,12 +148,13 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
                                   : "";
     fmt::print("\n    {} unknowns: proved {:.3g}{}", level.unknowns, level.relative, quote);
     if (level.seconds > asked.most_seconds && level.relative > *method.accuracy)
-      throw NotConverged(fmt::format("stopped after {:.1f} s: proved {:.3g} with {} unknowns, asked for {:g}",
-                                     level.seconds, level.relative, level.unknowns, *method.accuracy),
-                         level.relative, 0);
+      throw NotConverged(
+          fmt::format("stopped after {:.1f} s: proved {:.3g} with {} unknowns, asked for {:g}",
+                      level.seconds, level.relative, level.unknowns, *method.accuracy),
+          level.relative, 0);
   };
-  CertifiedSolution found = solve_scene(
-      file, {[&](const std::string& what) { report.stage(what); }, follower(asked.most_seconds), level_done});
+  CertifiedSolution found = solve_scene(file, {[&](const std::string& what) { report.stage(what); },
+                                               follower(asked.most_seconds), level_done});
   watch.lap();
   const SceneSummary summary = summary_of(file, found.result);
   found.result.seconds.solve += watch.lap();
@@ -153,22 +162,25 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
       stiff != nullptr && nlohmann::json::parse(file.json)["layer"].contains("thickness"))
     fmt::print("  layer: {:g} before a_x^-, {} before a_y^-\n", stiff->s, across(*stiff));
   report.stage("files");
-  write_scene_results(asked.out, file, found.result, summary, found.history.empty() ? nullptr : &found, asked.files);
+  write_scene_results(asked.out, file, found.result, summary,
+                      found.history.empty() ? nullptr : &found, asked.files);
   report.finish();
   if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
   const std::string name = (asked.out / "solution").string();
-  const char* const kind =
-      std::visit([&](const auto& model) { return model.picture(file.mesh.from_file()); }, file.model);
+  const char* const kind = std::visit(
+      [&](const auto& model) { return model.picture(file.mesh.from_file()); }, file.model);
   if (asked.files.contains("vtu"))
-    fmt::print("  a picture of it: {} {} {} --out {}\n", tutorial::in_shell(tutorial::sibling_path("render")), kind,
+    fmt::print("  a picture of it: {} {} {} --out {}\n",
+               tutorial::in_shell(tutorial::sibling_path("render")), kind,
                tutorial::in_shell(name + ".vtu"), tutorial::in_shell(name + ".png"));
   if (found.history.empty())
-    fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", summary.u_min,
-               summary.u_max, summary.contact_steps, summary.corrections, asked.out.string());
+    fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n",
+               summary.u_min, summary.u_max, summary.contact_steps, summary.corrections,
+               asked.out.string());
   else
     fmt::print("  proved relative error {:.3g}, {} levels, {} unknowns; results in {}\n",
-               found.certificate.relative(method.of), found.history.size(), found.result.space.free_count(),
-               asked.out.string());
+               found.certificate.relative(method.of), found.history.size(),
+               found.result.space.free_count(), asked.out.string());
 }
 
 int fail(const std::string& message, int status) {
@@ -181,23 +193,30 @@ int fail(const std::string& message, int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (mpi_size() > 1) tutorial::exec_program("run_scene_petsc", argv);  // which reads the scene on all at once
-  CLI::App line("Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
-                "run_scene");
+  if (mpi_size() > 1)
+    tutorial::exec_program("run_scene_petsc", argv);  // which reads the scene on all at once
+  CLI::App line(
+      "Solves the scene of a file: a loaded body, with or without a stiff layer, with or without "
+      "contact.",
+      "run_scene");
   std::filesystem::path scene;
   Asked asked;
   std::string files = "summary,csv,mesh,vtu";
   line.add_option("SCENE", scene, "the scene file, in TOML")->required();
   const CLI::Option* out = line.add_option(
-      "--out", asked.out, "folder of the results, made if absent; default: results/NAME of the scene file");
-  line.add_option("--files", files, "which files to write: any of summary, csv, mesh, vtu, with commas between them");
+      "--out", asked.out,
+      "folder of the results, made if absent; default: results/NAME of the scene file");
+  line.add_option("--files", files,
+                  "which files to write: any of summary, csv, mesh, vtu, with commas between them");
   line.add_flag("--direct", asked.direct,
                 "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
   line.add_flag("--restart", asked.restart,
                 "with solver = \"petsc\": start from the last level of a run that was ended");
-  line.add_option("--most-seconds", asked.most_seconds, "stop a solve that takes longer: status 3, and how far it came")
+  line.add_option("--most-seconds", asked.most_seconds,
+                  "stop a solve that takes longer: status 3, and how far it came")
       ->check(CLI::Range(0.0, asked.most_seconds));
-  line.footer("A scene file is TOML; the text after # is a comment:\n\n" + scene_keys_help() + more_help);
+  line.footer("A scene file is TOML; the text after # is a comment:\n\n" + scene_keys_help() +
+              more_help);
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {

@@ -4,10 +4,11 @@
 //         mpiexec -n 4 run_scene SCENE.toml --out DIR
 //         mpiexec -n 4 run_scene SCENE.toml --out DIR --restart     after a run that was ended: from its last level
 //
-// The way of the data: scene -> coarse mesh on every rank -> strips -> refinement, assembly and contact loop, level by
-// level, on each rank's own strip -> files, written by the ranks in turn. It promises what run_scene promises: an
-// answer with exit status 0, or one line on standard error, from rank 0, and no results: status 2 for a question that
-// cannot be asked, 3 for a solve that did not get there.
+// The way of the data: scene -> coarse mesh on every rank -> strips -> refinement, assembly and
+// contact loop, level by level, on each rank's own strip -> files, written by the ranks in turn. It
+// promises what run_scene promises: an answer with exit status 0, or one line on standard error,
+// from rank 0, and no results: status 2 for a question that cannot be asked, 3 for a solve that did
+// not get there.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -39,8 +40,8 @@ struct Choices {
   double most_seconds = std::numeric_limits<double>::infinity();
 };
 
-/// The mesh to begin with, on every rank, and how often it is refined: as often as the scene says. A structured mesh is
-/// one of few cells, refined: the same vertices.
+/// The mesh to begin with, on every rank, and how often it is refined: as often as the scene says.
+/// A structured mesh is one of few cells, refined: the same vertices.
 struct Hierarchy {
   TriangleMesh coarse;
   int refinements = 0, coarse_cells = 1;  // per unit side; 1 where a file does not say
@@ -51,7 +52,8 @@ Hierarchy hierarchy(const SceneFile& file, int ranks) {
   SceneFile first = file;
   std::swap(h.refinements, first.mesh.refinements);
   const bool halves = file.mesh.kind == "structured" &&
-                      !std::holds_alternative<ThinLayer>(file.scene.layer());  // its rows do not halve with the cells
+                      !std::holds_alternative<ThinLayer>(
+                          file.scene.layer());  // its rows do not halve with the cells
   const int least = std::max(16, 8 * ranks);
   while (halves && first.mesh.cells % 2 == 0 && first.mesh.cells / 2 >= least) {
     first.mesh.cells /= 2;
@@ -62,7 +64,8 @@ Hierarchy hierarchy(const SceneFile& file, int ranks) {
   return h;
 }
 
-/// The contact set of the library's own solver on a coarse structured mesh: where the first level begins to search.
+/// The contact set of the library's own solver on a coarse structured mesh: where the first level
+/// begins to search.
 dist::ContactSet first_guess(const Scene& scene) {
   const Space space(structured_mesh(32, Domain{scene.layer_depth()}), p1());
   const VariationalInequality problem = assemble(scene, space);
@@ -75,7 +78,8 @@ dist::ContactSet first_guess(const Scene& scene) {
   return set;
 }
 
-/// Better one line now than a process killed in the middle: about 1.1 kB per unknown of P1 and 2 kB per unknown of CR.
+/// Better one line now than a process killed in the middle: about 1.1 kB per unknown of P1 and 2 kB
+/// per unknown of CR.
 void check_memory(const SceneFile& file, const Hierarchy& h, int ranks) {
   const double vertices = h.coarse.vertex_count() * std::pow(4.0, h.refinements);
   const double needed = 300e6 + vertices * (file.method.element == "CR" ? 4000 : 1150) / ranks;
@@ -84,9 +88,10 @@ void check_memory(const SceneFile& file, const Hierarchy& h, int ranks) {
     if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) continue;
     if (needed > static_cast<double>(limit.rlim_cur))
       throw NotConverged(
-          fmt::format("{}: mesh: about {:.0f} MB per rank are needed, the limit of this process is {:.0f} "
-                      "MB; accepted: fewer cells, more ranks, or a higher limit",
-                      file.name, needed / 1e6, static_cast<double>(limit.rlim_cur) / 1e6),
+          fmt::format(
+              "{}: mesh: about {:.0f} MB per rank are needed, the limit of this process is {:.0f} "
+              "MB; accepted: fewer cells, more ranks, or a higher limit",
+              file.name, needed / 1e6, static_cast<double>(limit.rlim_cur) / 1e6),
           1, 0);
   }
 }
@@ -108,7 +113,8 @@ void named(const std::string& file, const Work& work) {
 /// The run of a scene. All ranks call its functions together.
 class SceneRun {
  public:
-  SceneRun(std::filesystem::path scene, std::filesystem::path out, const Choices& choices, tutorial::Report& report)
+  SceneRun(std::filesystem::path scene, std::filesystem::path out, const Choices& choices,
+           tutorial::Report& report)
       : scene_(std::move(scene)),
         out_(std::move(out)),
         checkpoint_(dist::checkpoint_path(out_)),
@@ -136,7 +142,8 @@ class SceneRun {
     const RunSeconds seconds{before + solved_.mesh, solved_.assemble, solved_.setup, rest};
 
     begin_stage("files");
-    dist::write_scene_files(out_, *file_, *level_, solved_, hierarchy_.refinements + 1, layer, warning, seconds);
+    dist::write_scene_files(out_, *file_, *level_, solved_, hierarchy_.refinements + 1, layer,
+                            warning, seconds);
     remove_checkpoint();
     if (dist::rank() == 0) print_summary(warning);
   }
@@ -152,7 +159,8 @@ class SceneRun {
       file_ = read_scene_file(scene_);
       if (file_->method.solver != "petsc")
         throw Error(
-            fmt::format("{}: method.solver: \"{}\" runs without mpiexec, {} ranks were started; accepted: \"petsc\"",
+            fmt::format("{}: method.solver: \"{}\" runs without mpiexec, {} ranks were started; "
+                        "accepted: \"petsc\"",
                         file_->name, file_->method.solver, dist::ranks()));
       check_folder(out_);
       check_inputs_stay(out_, scene_, *file_, dist::ranks());
@@ -169,7 +177,8 @@ class SceneRun {
       hierarchy_ = hierarchy(*file_, dist::ranks());
       check_memory(*file_, hierarchy_, dist::ranks());
       const bool unit_square = !file_->mesh.from_file();
-      if (unit_square && !options_.start && file_->scene.contact()) options_.start = first_guess(file_->scene);
+      if (unit_square && !options_.start && file_->scene.contact())
+        options_.start = first_guess(file_->scene);
     });
   }
 
@@ -193,7 +202,8 @@ class SceneRun {
     options_.stage = [this](const std::string& what) { begin_stage(what); };
     options_.checkpoint = [this](int level, const dist::ContactSet& set) {
       dist::collectively([&] {
-        if (dist::rank() == 0) dist::write_checkpoint(checkpoint_, {question_, hierarchy_.coarse_cells << level, set});
+        if (dist::rank() == 0)
+          dist::write_checkpoint(checkpoint_, {question_, hierarchy_.coarse_cells << level, set});
       });
     };
   }
@@ -206,13 +216,15 @@ class SceneRun {
     const MethodRequest& method = file_->method;
     try {
       named(file_->name, [&] {
-        level_ = dist::solve_nested(file_->scene, hierarchy_.coarse, element(method.element), options_, solved_);
+        level_ = dist::solve_nested(file_->scene, hierarchy_.coarse, element(method.element),
+                                    options_, solved_);
         if (method.tolerance < MethodRequest::finest_tolerance)
-          throw NotConverged(
-              fmt::format("petsc: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
-                          "double precision goes no further",
-                          MethodRequest::finest_tolerance, solved_.last.corrections, method.tolerance),
-              MethodRequest::finest_tolerance, solved_.last.corrections);
+          throw NotConverged(fmt::format("petsc: relative error about {:.0e} reached after {} "
+                                         "corrections, asked for {:.1e}; "
+                                         "double precision goes no further",
+                                         MethodRequest::finest_tolerance, solved_.last.corrections,
+                                         method.tolerance),
+                             MethodRequest::finest_tolerance, solved_.last.corrections);
       });
     } catch (const Error&) {
       remove_checkpoint();
@@ -227,7 +239,8 @@ class SceneRun {
       Solution here;
       here.u = level_->state.u;
       warning = load_warning(*file_, level_->space, level_->problem.part());
-      if (warning.empty() && file_->scene.contact()) warning = gap_warning(*file_, level_->space, here);
+      if (warning.empty() && file_->scene.contact())
+        warning = gap_warning(*file_, level_->space, here);
     });
     return solved_.warning.empty() ? dist::first_nonempty(warning) : solved_.warning;
   }
@@ -236,10 +249,13 @@ class SceneRun {
     report_.finish();
     if (!warning.empty()) fmt::print("  warning: {}\n", warning);
     fmt::print(
-        "  {} unknowns; {} corrections and {} iterations of conjugate gradients on the last level; results in {}\n",
-        solved_.unknowns.back(), solved_.last.corrections, solved_.last.linear_iterations, out_.string());
+        "  {} unknowns; {} corrections and {} iterations of conjugate gradients on the last level; "
+        "results in {}\n",
+        solved_.unknowns.back(), solved_.last.corrections, solved_.last.linear_iterations,
+        out_.string());
     if (dist::ranks() == 1)
-      fmt::print("  a picture of it: {} surface {} --out {}\n", tutorial::in_shell(tutorial::sibling_path("render")),
+      fmt::print("  a picture of it: {} surface {} --out {}\n",
+                 tutorial::in_shell(tutorial::sibling_path("render")),
                  tutorial::in_shell((out_ / "solution_0.vtu").string()),
                  tutorial::in_shell((out_ / "solution.png").string()));
   }
@@ -260,22 +276,29 @@ class SceneRun {
 };
 
 int fail(const std::string& message, int status) {
-  if (dist::rank() == 0) std::fputs((printable(message, 4000) + "\n").c_str(), stderr);  // it cannot throw
+  if (dist::rank() == 0)
+    std::fputs((printable(message, 4000) + "\n").c_str(), stderr);  // it cannot throw
   return status;
 }
 
 int run(int argc, char** argv) {
-  CLI::App line("Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file holds.",
-                "run_scene");
+  CLI::App line(
+      "Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file "
+      "holds.",
+      "run_scene");
   std::filesystem::path scene, out;
   Choices choices;
   line.add_option("SCENE", scene, "the scene file, in TOML")->required();
-  const CLI::Option* folder =
-      line.add_option("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
-  line.add_flag("--restart", choices.restart, "start from the last level of a run to the same folder that was ended");
-  line.add_option("--most-seconds", choices.most_seconds, "stop a solve that takes longer: status 3")
+  const CLI::Option* folder = line.add_option(
+      "--out", out,
+      "folder of the results, made if absent; default: results/NAME of the scene file");
+  line.add_flag("--restart", choices.restart,
+                "start from the last level of a run to the same folder that was ended");
+  line.add_option("--most-seconds", choices.most_seconds,
+                  "stop a solve that takes longer: status 3")
       ->check(CLI::Range(0.0, choices.most_seconds));
-  line.add_flag("--direct", choices.direct, "MUMPS in place of multigrid: for layers without columns");
+  line.add_flag("--direct", choices.direct,
+                "MUMPS in place of multigrid: for layers without columns");
   if (const auto status = tutorial::parse(line, argc, argv, dist::rank() > 0)) return *status;
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {
@@ -303,9 +326,10 @@ int main(int argc, char** argv) {
       return delivered(run(argc, argv), "run_scene");
     } catch (const std::exception& failure) {  // of this rank alone: the others may wait for it
       const bool memory = dynamic_cast<const std::bad_alloc*>(&failure) != nullptr;
-      dist::abort(
-          fmt::format("run_scene: {}", memory ? "out of memory; accepted: fewer cells, or more ranks" : failure.what()),
-          3);
+      dist::abort(fmt::format("run_scene: {}",
+                              memory ? "out of memory; accepted: fewer cells, or more ranks"
+                                     : failure.what()),
+                  3);
     }
   } catch (const std::exception& failure) {
     fmt::print(stderr, "run_scene: {}\n", failure.what());

@@ -1,7 +1,8 @@
 // The compiled part of Python's module `antilock`, which antilock/__init__.py shows to its users.
 //
-// Arrays of an answer are views of the library's memory, or moved into the array; matrices are copied once, since the
-// library keeps what it factors. Whatever takes long gives Python's lock back.
+// Arrays of an answer are views of the library's memory, or moved into the array; matrices are
+// copied once, since the library keeps what it factors. Whatever takes long gives Python's lock
+// back.
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
@@ -29,9 +30,10 @@ namespace {
 
 using Unlocked = py::gil_scoped_release;
 
-VariationalInequality problem_from(SparseMatrix a1, RowMatrix b, VectorXd m, VectorXd load, double compliance,
-                                   std::vector<int> fixed, VectorXd fixed_values, std::vector<int> bounded,
-                                   VectorXd lower, VectorXd upper, std::optional<VectorXd> force_limit) {
+VariationalInequality problem_from(SparseMatrix a1, RowMatrix b, VectorXd m, VectorXd load,
+                                   double compliance, std::vector<int> fixed, VectorXd fixed_values,
+                                   std::vector<int> bounded, VectorXd lower, VectorXd upper,
+                                   std::optional<VectorXd> force_limit) {
   BoundLimits limits(std::move(lower), std::move(upper));
   if (force_limit) limits.force_limit = std::move(*force_limit);
   VariationalInequality problem{.a1 = std::move(a1),
@@ -51,13 +53,18 @@ struct Solved : Solution {
   double energy = 0;
 };
 
-/// An argument of Python as a number: antilock/_arguments.py says what is accepted, and refuses the rest.
+/// An argument of Python as a number: antilock/_arguments.py says what is accepted, and refuses the
+/// rest.
 double number(const char* name, const py::object& given, const char* accepted) {
-  return py::module_::import("antilock._arguments").attr("number")(name, given, accepted).cast<double>();
+  return py::module_::import("antilock._arguments")
+      .attr("number")(name, given, accepted)
+      .cast<double>();
 }
 /// Real numbers of any shape.
 py::array_t<double> numbers(const char* name, const py::object& given) {
-  return py::module_::import("antilock._arguments").attr("numbers_of")(name, given).cast<py::array_t<double>>();
+  return py::module_::import("antilock._arguments")
+      .attr("numbers_of")(name, given)
+      .cast<py::array_t<double>>();
 }
 
 /// Ctrl-C ends a solve between two corrections, and an accuracy between two steps of a level.
@@ -96,7 +103,8 @@ Solved answer_of(const VariationalInequality& problem, double tolerance) {
 SceneFile scene_of(const std::string& text, const std::string& folder) {
   SceneFile file = read_scene(text, std::filesystem::path(folder) / "scene");
   if (file.method.solver == "petsc")
-    throw Error(file.name + ": method.solver: \"petsc\" is for run_scene; accepted: \"active-set\", \"uzawa\"");
+    throw Error(file.name +
+                ": method.solver: \"petsc\" is for run_scene; accepted: \"active-set\", \"uzawa\"");
   return file;
 }
 
@@ -111,8 +119,11 @@ py::tuple run(const std::string& text, const std::string& folder) {
     return answered;
   }();
   Result& answer = found.result;
-  const auto given = [](auto& owned) { return py::cast(std::move(owned)); };  // moved into the array, not copied
-  py::dict arrays("points"_a = answer.space.dof_coordinates(), "vertices"_a = answer.space.mesh().vertices,
+  const auto given = [](auto& owned) {
+    return py::cast(std::move(owned));
+  };  // moved into the array, not copied
+  py::dict arrays("points"_a = answer.space.dof_coordinates(),
+                  "vertices"_a = answer.space.mesh().vertices,
                   "triangles"_a = answer.space.mesh().triangles);
   if (file.scene.contact()) arrays["contact"] = contact_table(normal_contact(answer));
   answer.solution.p.conservativeResize(answer.problem.parametric_row_count());
@@ -132,7 +143,8 @@ py::dict certify_scene(const std::string& text, double accuracy, const std::stri
   }();
   const Certificate& proof = found.certificate;
   return py::dict("energy_lower"_a = proof.energy_lower, "energy_upper"_a = proof.energy_upper,
-                  "bound"_a = proof.displacement, "relative"_a = proof.relative(Quantity::displacement),
+                  "bound"_a = proof.displacement,
+                  "relative"_a = proof.relative(Quantity::displacement),
                   "layer_share"_a = proof.layer_share, "unknowns"_a = found.history.back().unknowns,
                   "warning"_a = found.result.warning);
 }
@@ -146,7 +158,8 @@ struct TabulatedExact {
           std::optional<ExactSolution> known = exact_solution_of(scene);
           if (!known)
             throw Error("exact solution: load \"" + printable(load) +
-                        "\" is no sum of sines in x with polynomials in y; accepted: such as 10*sin(2*pi*x), or run "
+                        "\" is no sum of sines in x with polynomials in y; accepted: such as "
+                        "10*sin(2*pi*x), or run "
                         "and certify for any other");
           return std::move(*known);
         }()),
@@ -158,13 +171,15 @@ struct TabulatedExact {
 ExactPoint at(const TabulatedExact* known, double x, double y, double top = 1) {
   const double in_x = std::clamp(x, 0.0, 1.0), in_y = std::clamp(y, -1.0, top);
   if (!(std::hypot(x - in_x, y - in_y) <= 1e-9))  // coordinates are rounded; u is right to 1e-8
-    throw Error(fmt::format("exact solution: ({}, {}); accepted: 0 <= x <= 1, -1 <= y <= {}", x, y, top));
+    throw Error(
+        fmt::format("exact solution: ({}, {}); accepted: 0 <= x <= 1, -1 <= y <= {}", x, y, top));
   return known->table.at(in_x, in_y);
 }
 
 double pressure_at(const TabulatedExact& known, double x) {
   const double in_x = std::clamp(x, 0.0, 1.0);
-  if (!(std::abs(x - in_x) <= 1e-9)) throw Error(fmt::format("exact solution: x = {}; accepted: 0 <= x <= 1", x));
+  if (!(std::abs(x - in_x) <= 1e-9))
+    throw Error(fmt::format("exact solution: x = {}; accepted: 0 <= x <= 1", x));
   return known.solution.pressure(in_x);
 }
 
@@ -172,11 +187,14 @@ double pressure_at(const TabulatedExact& known, double x) {
 template <class Function>
 py::object at_points(const Function& f, const py::object& x, const py::object& y) {
   using Array = py::array_t<double>;
-  const auto [xs, ys] = py::module_::import("antilock._arguments").attr("points")(x, y).cast<std::pair<Array, Array>>();
+  const auto [xs, ys] = py::module_::import("antilock._arguments")
+                            .attr("points")(x, y)
+                            .cast<std::pair<Array, Array>>();
   return py::vectorize(Function(f))(xs, ys);
 }
 
-/// What the language or the C++ library throws becomes an Error of one line, memory that runs out too.
+/// What the language or the C++ library throws becomes an Error of one line, memory that runs out
+/// too.
 void translate(std::exception_ptr thrown) {
   const auto raise = [](const char* what) {
     PyErr_SetString(py::module_::import("antilock._antilock").attr("Error").ptr(), what);
@@ -199,7 +217,8 @@ void translate(std::exception_ptr thrown) {
 void register_errors(py::module_& module) {
   const py::object error = py::register_exception<Error>(module, "Error", PyExc_ValueError);
   py::register_exception<NotConverged>(module, "NotConverged", error);
-  for (const char* name : {"Error", "NotConverged"}) module.attr(name).attr("__module__") = "antilock";
+  for (const char* name : {"Error", "NotConverged"})
+    module.attr(name).attr("__module__") = "antilock";
   py::register_local_exception_translator(&translate);
 }
 
@@ -213,7 +232,8 @@ void register_problem(py::module_& module) {
             return answer_of(p, number("tolerance", tolerance, "a number above 0, at most 1e-3"));
           },
           "tolerance"_a = 1e-10,
-          "The answer, to a relative error of u. Throws NotConverged, or Error for a problem that has none.")
+          "The answer, to a relative error of u. Throws NotConverged, or Error for a problem that "
+          "has none.")
       .def_property(
           "compliance", [](const P& p) { return p.compliance; },
           [](P& p, const py::object& given) {
@@ -224,7 +244,8 @@ void register_problem(py::module_& module) {
           },
           "0 or more")
       .def_readonly("m", &P::m, "R")
-      .def_readonly("own_compliances", &P::fixed_compliances, "of the last rows of b, in place of `compliance`")
+      .def_readonly("own_compliances", &P::fixed_compliances,
+                    "of the last rows of b, in place of `compliance`")
       .def_readonly("load", &P::load, "N")
       .def_readonly("fixed", &P::dirichlet_dofs, "the unknowns that are held")
       .def_property_readonly(
@@ -237,10 +258,12 @@ void register_problem(py::module_& module) {
 
 void register_solution(py::module_& module) {
   using S = Solved;
-  py::class_<S>(module, "Solution", "u with its forces. Arrays are read-only views of the answer's memory.")
+  py::class_<S>(module, "Solution",
+                "u with its forces. Arrays are read-only views of the answer's memory.")
       .def_readonly("u", &S::u, "N")
       .def_readonly("p", &S::p, "R, the stress compliance^-1 B u; finite at compliance 0")
-      .def_readonly("lambda_", &S::lambda, "N, the force of each bound: >= 0 at a lower one, <= 0 at an upper one")
+      .def_readonly("lambda_", &S::lambda,
+                    "N, the force of each bound: >= 0 at a lower one, <= 0 at an upper one")
       .def_readonly("active", &S::active, "N: whether a bound holds")
       .def_readonly("energy", &S::energy, "J(u) = a(u, u) / 2 - L(u)")
       .def_readonly("error", &S::error, "algebraic error of u at most, relative to the largest |u|")
@@ -251,8 +274,8 @@ void register_solution(py::module_& module) {
 }
 
 void register_diagnosis(py::module_& module) {
-  py::class_<LockingDiagnosis>(module, "Diagnosis",
-                               "Whether a discretisation can follow compliance -> 0; str() says why.")
+  py::class_<LockingDiagnosis>(
+      module, "Diagnosis", "Whether a discretisation can follow compliance -> 0; str() says why.")
       .def_property_readonly("locks", &LockingDiagnosis::locks)
       .def_readonly("coarse", &LockingDiagnosis::coarse,
                     "independent motions of the bounds without strain, coarse mesh")
@@ -263,11 +286,13 @@ void register_diagnosis(py::module_& module) {
 void register_exact_solution(py::module_& module) {
   using T = TabulatedExact;
   using Any = const py::object&;
-  py::class_<T>(module, "ExactSolution", "The exact solution of (23). x and y are numbers or arrays, which broadcast.")
+  py::class_<T>(module, "ExactSolution",
+                "The exact solution of (23). x and y are numbers or arrays, which broadcast.")
       .def(py::init([](Any epsilon, Any load, Any contact) {
              const auto arguments = py::module_::import("antilock._arguments");
              const double size = number("epsilon", epsilon, "0 to 1");
-             const auto f = arguments.attr("text")("load", load, "a formula in x and y").cast<std::string>();
+             const auto f =
+                 arguments.attr("text")("load", load, "a formula in x and y").cast<std::string>();
              const bool bounded = arguments.attr("flag")("contact", contact).cast<bool>();
              const Unlocked unlocked;
              return std::make_unique<T>(size, f, bounded);
@@ -294,9 +319,11 @@ void register_exact_solution(py::module_& module) {
       .def(
           "p",
           [](const T& t, Any x, Any y) {
-            return at_points([&t](double a, double b) { return at(&t, a, b, 0).layer_stress; }, x, y);
+            return at_points([&t](double a, double b) { return at(&t, a, b, 0).layer_stress; }, x,
+                             y);
           },
-          "x"_a, "y"_a, "the layer stress epsilon^-2 u_y where y <= 0, to 1e-6; 1e-4 near an end of contact")
+          "x"_a, "y"_a,
+          "the layer stress epsilon^-2 u_y where y <= 0, to 1e-6; 1e-4 near an end of contact")
       .def(
           "pressure",
           [](const T& t, Any x) {
@@ -306,13 +333,15 @@ void register_exact_solution(py::module_& module) {
       .def_property_readonly(
           "energy", [](const T& t) { return t.solution.energy(); }, "J(u), to 1e-8")
       .def_property_readonly(
-          "contact", [](const T& t) { return t.solution.contact_zones(); }, "intervals of x, to 1e-5");
+          "contact", [](const T& t) { return t.solution.contact_zones(); },
+          "intervals of x, to 1e-5");
 
   module.attr("Truth") = module.attr("ExactSolution");  // the name in 0.2
 }
 
 void register_functions(py::module_& module) {
-  module.def("without_void_bound", py::vectorize(&bound_or_infinity), "infinite where |bound| >= 1e40");
+  module.def("without_void_bound", py::vectorize(&bound_or_infinity),
+             "infinite where |bound| >= 1e40");
   module.def("diagnose", &diagnose_locking, py::call_guard<Unlocked>());
   module.def("assemble", [](const std::string& text, const std::string& folder) {
     const SceneFile file = scene_of(text, folder);

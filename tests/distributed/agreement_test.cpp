@@ -32,9 +32,10 @@ struct Case {
 
 class Agreement : public ::testing::TestWithParam<Case> {};
 
-/// The serial answer on `coarse`, refined, and that of all ranks: the same u and the same contact set.
-void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Element& page, int refinements,
-                      const std::string& name, bool direct = false) {
+/// The serial answer on `coarse`, refined, and that of all ranks: the same u and the same contact
+/// set.
+void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Element& page,
+                      int refinements, const std::string& name, bool direct = false) {
   TriangleMesh mesh = coarse;
   for (int i = 0; i < refinements; ++i) mesh = antilock::refined(mesh);
   const Space space(mesh, page);
@@ -45,7 +46,8 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
     u[key(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))] = serial.u(i);
   std::map<long long, bool> in_contact;
   for (std::size_t i = 0; i < problem.bounds.unknowns.size(); ++i)
-    in_contact[std::get<0>(key(space.dof_coordinates()(problem.bounds.unknowns[i], 0), 0))] = serial.active[i];
+    in_contact[std::get<0>(key(space.dof_coordinates()(problem.bounds.unknowns[i], 0), 0))] =
+        serial.active[i];
 
   NestedOptions options;
   options.refinements = refinements;
@@ -56,7 +58,8 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
   EXPECT_EQ(report.unknowns.back(), problem.free_count());
   double worst = 0;
   for (int i = 0; i < level->space.size(); ++i) {
-    const auto found = u.find(key(level->space.dof_coordinates()(i, 0), level->space.dof_coordinates()(i, 1)));
+    const auto found =
+        u.find(key(level->space.dof_coordinates()(i, 0), level->space.dof_coordinates()(i, 1)));
     ASSERT_NE(found, u.end());
     worst = std::max(worst, std::abs(level->state.u(i) - found->second));
   }
@@ -77,43 +80,51 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
     EXPECT_EQ(report.last.set_changes, 0);
   }
   if (rank() == 0)
-    std::printf("%s: difference %.1e, residual %.1e, %d corrections, %d iterations (most %d), %d setups\n",
-                name.c_str(), worst, report.kkt.residual, report.last.corrections, report.last.linear_iterations,
-                report.last.max_iterations, report.last.setups);
+    std::printf(
+        "%s: difference %.1e, residual %.1e, %d corrections, %d iterations (most %d), %d setups\n",
+        name.c_str(), worst, report.kkt.residual, report.last.corrections,
+        report.last.linear_iterations, report.last.max_iterations, report.last.setups);
 }
 
 TEST_P(Agreement, WithTheSerialLibrary) {
   const auto [layered, name, epsilon] = GetParam();
   expect_agreement(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}),
-                   layered ? layered_mesh(coarse_cells) : structured_mesh(coarse_cells), element(name), 3,  // 1/h = 64
+                   layered ? layered_mesh(coarse_cells) : structured_mesh(coarse_cells),
+                   element(name), 3,  // 1/h = 64
                    fmt::format("{} {} {:g}", layered ? "layered" : "structured", name, epsilon));
 }
 
-TEST(AgreementOnABridge, WithTheSerialLibrary) {  // under a bridge a rank may hold no part of the layer
+TEST(AgreementOnABridge,
+     WithTheSerialLibrary) {  // under a bridge a rank may hold no part of the layer
   for (const double epsilon : {1e-2, 1e-6})
     for (const char* name : {"P1", "CR"})
       for (const bool feet : {false, true})
         expect_agreement(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}),
-                         extruded(feet ? test::bridge(8) : test::l_shape(8), epsilon), element(name), 2,
+                         extruded(feet ? test::bridge(8) : test::l_shape(8), epsilon),
+                         element(name), 2,
                          fmt::format("{} {} {:g}", feet ? "bridge" : "L", name, epsilon));
 }
 
 TEST(AgreementOnEffectsAlone, WithTheSerialLibrary) {  // no layer, no contact, a thin layer
-  for (const Scene& scene : {Scene({paper_load}), Scene({paper_load}, NoLayer{}, UnilateralContact{}),
-                             Scene({paper_load}, ThinLayer{0.1}, UnilateralContact{})})
-    expect_agreement(scene, structured_mesh(coarse_cells, Domain{scene.layer_depth()}), p1(), 2, "effects alone");
+  for (const Scene& scene :
+       {Scene({paper_load}), Scene({paper_load}, NoLayer{}, UnilateralContact{}),
+        Scene({paper_load}, ThinLayer{0.1}, UnilateralContact{})})
+    expect_agreement(scene, structured_mesh(coarse_cells, Domain{scene.layer_depth()}), p1(), 2,
+                     "effects alone");
 }
 
 TEST(AgreementOfMumps, WithTheSerialLibrary) {
-  expect_agreement(Scene({paper_load}, StiffLayer{1e-6}, UnilateralContact{}), unstructured_mesh(coarse_cells),
-                   crouzeix_raviart(), 2, "a layer without columns", true);
+  expect_agreement(Scene({paper_load}, StiffLayer{1e-6}, UnilateralContact{}),
+                   unstructured_mesh(coarse_cells), crouzeix_raviart(), 2,
+                   "a layer without columns", true);
 }
 
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const bool layered : {false, true})
     for (const char* name : {"P1", "CR"})
-      for (const double epsilon : {1.0, 1e-2, 1e-6, 1e-12, 0.0}) all.push_back({layered, name, epsilon});
+      for (const double epsilon : {1.0, 1e-2, 1e-6, 1e-12, 0.0})
+        all.push_back({layered, name, epsilon});
   return all;
 }
 

@@ -10,7 +10,8 @@ int main(int argc, char** argv) {
   const antilock::distributed::Session session;
   if (antilock::distributed::rank() > 0) {
     auto& listeners = ::testing::UnitTest::GetInstance()->listeners();
-    const std::unique_ptr<::testing::TestEventListener> silenced(listeners.Release(listeners.default_result_printer()));
+    const std::unique_ptr<::testing::TestEventListener> silenced(
+        listeners.Release(listeners.default_result_printer()));
   }
   const long long failed = RUN_ALL_TESTS();
   return antilock::distributed::sum(failed) == 0 ? 0 : 1;

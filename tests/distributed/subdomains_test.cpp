@@ -23,7 +23,9 @@
 namespace antilock::distributed {
 namespace {
 
-Scene scene(double epsilon = 1e-6) { return Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
+Scene scene(double epsilon = 1e-6) {
+  return Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{});
+}
 
 TEST(Strips, EndAtColumnsAndShareTheTrianglesOut) {
   for (const TriangleMesh& mesh : {structured_mesh(24), layered_mesh(24), layered_mesh(24, 1e-6)})
@@ -36,7 +38,8 @@ TEST(Strips, EndAtColumnsAndShareTheTrianglesOut) {
         if (mesh.region[t] != Region::layer) continue;
         for (int i = 0; i < 3; ++i) {
           const double x = mesh.vertices(mesh.triangles(t, i), 0);
-          left[rank_of[t]] = std::min(left[rank_of[t]], x), right[rank_of[t]] = std::max(right[rank_of[t]], x);
+          left[rank_of[t]] = std::min(left[rank_of[t]], x),
+          right[rank_of[t]] = std::max(right[rank_of[t]], x);
         }
       }
       for (int r = 0; r < count; ++r) {
@@ -64,13 +67,16 @@ TEST(Pieces, RefinedAreThePiecesOfTheRefinedMesh) {
   int triangles = 0;
   std::set<std::array<double, 2>> places;
   for (int r = 0; r < 3; ++r) {
-    const TriangleMesh mesh = refined_subdomain(refined_subdomain(subdomain_of(coarse, rank_of, r)));
+    const TriangleMesh mesh =
+        refined_subdomain(refined_subdomain(subdomain_of(coarse, rank_of, r)));
     triangles += mesh.triangle_count();
-    for (int v = 0; v < mesh.vertex_count(); ++v) places.insert({mesh.vertices(v, 0), mesh.vertices(v, 1)});
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+      places.insert({mesh.vertices(v, 0), mesh.vertices(v, 1)});
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       ASSERT_GT(mesh.twice_area(t), 0);
       for (int i = 0; i < 3; ++i) {  // edge i lies opposite vertex i, its smaller end first
-        const int e = mesh.triangle_edges(t, i), a = mesh.triangles(t, (i + 1) % 3), b = mesh.triangles(t, (i + 2) % 3);
+        const int e = mesh.triangle_edges(t, i), a = mesh.triangles(t, (i + 1) % 3),
+                  b = mesh.triangles(t, (i + 2) % 3);
         ASSERT_EQ(mesh.edges(e, 0), std::min(a, b));
         ASSERT_EQ(mesh.edges(e, 1), std::max(a, b));
       }
@@ -78,21 +84,23 @@ TEST(Pieces, RefinedAreThePiecesOfTheRefinedMesh) {
   }
   EXPECT_EQ(triangles, fine.triangle_count());
   std::set<std::array<double, 2>> wanted;
-  for (int v = 0; v < fine.vertex_count(); ++v) wanted.insert({fine.vertices(v, 0), fine.vertices(v, 1)});
+  for (int v = 0; v < fine.vertex_count(); ++v)
+    wanted.insert({fine.vertices(v, 0), fine.vertices(v, 1)});
   EXPECT_EQ(places, wanted);  // to the last bit: both sides of a cut see the same vertex
 }
 
 // Two triangles with one point in common: the ranks share an unknown there, though no edge.
 TEST(Pieces, ThatMeetAtAPointAloneShareIt) {
-  const TriangleMesh bow = make_triangle_mesh(Points{{0, 0}, {0.5, 0}, {0, 1}, {1, 0}, {1, 1}},
-                                              Triples{{0, 1, 2}, {1, 3, 4}}, {Region::body, Region::body},
-                                              {{0, 1, EdgeTag::contact},
-                                               {1, 3, EdgeTag::contact},
-                                               {1, 2, EdgeTag::clamped},
-                                               {0, 2, EdgeTag::clamped},
-                                               {3, 4, EdgeTag::clamped},
-                                               {1, 4, EdgeTag::clamped}},
-                                              "bow");
+  const TriangleMesh bow =
+      make_triangle_mesh(Points{{0, 0}, {0.5, 0}, {0, 1}, {1, 0}, {1, 1}},
+                         Triples{{0, 1, 2}, {1, 3, 4}}, {Region::body, Region::body},
+                         {{0, 1, EdgeTag::contact},
+                          {1, 3, EdgeTag::contact},
+                          {1, 2, EdgeTag::clamped},
+                          {0, 2, EdgeTag::clamped},
+                          {3, 4, EdgeTag::clamped},
+                          {1, 4, EdgeTag::clamped}},
+                         "bow");
   EXPECT_EQ(subdomain_of(bow, {1, 1}, 1).triangle_count(), 2);
   const TriangleMesh subdomain = subdomain_of(bow, {0, ranks() - 1}, rank());
   EXPECT_EQ(sum(static_cast<long long>(DofMap(Space(subdomain, p1())).owned())), 5);
@@ -101,7 +109,8 @@ TEST(Pieces, ThatMeetAtAPointAloneShareIt) {
 
 TEST(DofMap, OneForEveryVertexAndEdgeOfTheWholeMesh) {
   const TriangleMesh coarse = layered_mesh(8), whole = antilock::refined(coarse);
-  const TriangleMesh subdomain = refined_subdomain(subdomain_of(coarse, strip_partition(coarse, ranks()), rank()));
+  const TriangleMesh subdomain =
+      refined_subdomain(subdomain_of(coarse, strip_partition(coarse, ranks()), rank()));
   for (const Element* element : {&p1(), &crouzeix_raviart()}) {
     const Space space(subdomain, *element), of_whole(whole, *element);
     const DofMap rows(space);
@@ -109,8 +118,8 @@ TEST(DofMap, OneForEveryVertexAndEdgeOfTheWholeMesh) {
     EXPECT_EQ(rows.total(), of_whole.free_count());
     std::vector<double> mine;  // row, x, y: a row means the same unknown on every rank
     for (int i = 0; i < space.size(); ++i)
-      mine.insert(mine.end(),
-                  {static_cast<double>(rows.row()[i]), space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1)});
+      mine.insert(mine.end(), {static_cast<double>(rows.row()[i]), space.dof_coordinates()(i, 0),
+                               space.dof_coordinates()(i, 1)});
     const std::vector<double> all = all_gather(mine);
     std::vector<std::array<double, 2>> place(of_whole.size(), {-9, -9});
     for (std::size_t i = 0; i < all.size(); i += 3) {
@@ -165,9 +174,11 @@ TEST(Refusals, AreTheSameOnEveryRank) {
   expect_refused<Error>(scene(), structured_mesh(8, {0}), p1(), {});  // no layer to be found
   expect_refused<Error>(Scene({paper_load}, VentcelLayer{}), structured_mesh(8, {0}), p1(), {});
   const auto infinite_at_the_right = [](double x, double) { return x > 0.9 ? INFINITY : 1; };
-  expect_refused<Error>(Scene({infinite_at_the_right}, StiffLayer{1e-2}), structured_mesh(8), p1(), {});
+  expect_refused<Error>(Scene({infinite_at_the_right}, StiffLayer{1e-2}), structured_mesh(8), p1(),
+                        {});
   const UnilateralContact bad_gap{[](double x) { return x > 0.7 && x < 0.9 ? NAN : 1; }};
-  expect_refused<Error>(Scene({paper_load}, StiffLayer{1e-2}, bad_gap), structured_mesh(16), p1(), {});
+  expect_refused<Error>(Scene({paper_load}, StiffLayer{1e-2}, bad_gap), structured_mesh(16), p1(),
+                        {});
   NestedOptions hasty;
   hasty.loop.max_corrections = 1;
   expect_refused<NotConverged>(scene(), structured_mesh(16), p1(), hasty);
@@ -186,15 +197,21 @@ TEST(Report, IsTheSerialOneOfTheSameNumbers) {
   // the same error on both sides: u is pushed by a smooth function of size 1e-4
   const auto push = [](double x, double y) { return 1e-4 * std::sin(7 * x + 3 * y); };
   for (int i = 0; i < space.size(); ++i)
-    if (serial.u(i) != 0) serial.u(i) += push(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1));
+    if (serial.u(i) != 0)
+      serial.u(i) += push(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1));
   for (int i = 0; i < level->space.size(); ++i)
     if (level->state.u(i) != 0)
-      level->state.u(i) += push(level->space.dof_coordinates()(i, 0), level->space.dof_coordinates()(i, 1));
-  const Eigen::VectorXd forces = -exact_residual(problem, serial.u, serial.p, Eigen::VectorXd(0)).r1;
-  for (std::size_t i = 0; i < problem.bounds.unknowns.size(); ++i)  // the forces that the distributed side takes
-    serial.lambda(static_cast<Eigen::Index>(i)) = serial.active[i] ? forces(problem.bounds.unknowns[i]) : 0;
+      level->state.u(i) +=
+          push(level->space.dof_coordinates()(i, 0), level->space.dof_coordinates()(i, 1));
+  const Eigen::VectorXd forces =
+      -exact_residual(problem, serial.u, serial.p, Eigen::VectorXd(0)).r1;
+  for (std::size_t i = 0; i < problem.bounds.unknowns.size();
+       ++i)  // the forces that the distributed side takes
+    serial.lambda(static_cast<Eigen::Index>(i)) =
+        serial.active[i] ? forces(problem.bounds.unknowns[i]) : 0;
   serial.penalised_max_u = 0;
-  const Kkt theirs = antilock::kkt_report(problem, serial), ours = kkt_report(level->problem, level->state);
+  const Kkt theirs = antilock::kkt_report(problem, serial),
+            ours = kkt_report(level->problem, level->state);
   EXPECT_GT(ours.residual, 1e-4);
   EXPECT_NEAR(ours.residual, theirs.residual, 0.01 * theirs.residual);
   EXPECT_NEAR(ours.min_gap, theirs.min_gap, 0.01 * std::abs(theirs.min_gap) + 1e-12);

@@ -1,4 +1,5 @@
-// check_image: is a PNG what a figure should be? 1800 pixels across at least, a white background, and something drawn on it.
+// check_image: is a PNG what a figure should be? 1800 pixels across at least, a white background,
+// and something drawn on it.
 // Run: check_image IMAGE.png
 //      check_image IMAGE.png OTHER.png    do both show the same? Round-off and another display driver move edges by less than
 //                                         two pixels; a line, a mark or a digit elsewhere is a difference
@@ -30,7 +31,9 @@ class Picture {
     pixels_ = static_cast<const unsigned char*>(reader_->GetOutput()->GetScalarPointer());
   }
   /// Red, green and blue, 0 to 255.
-  const unsigned char* at(int x, int y) const { return pixels_ + (static_cast<long>(y) * width + x) * channels_; }
+  const unsigned char* at(int x, int y) const {
+    return pixels_ + (static_cast<long>(y) * width + x) * channels_;
+  }
   bool drawn_on(int x, int y) const {
     return std::any_of(at(x, y), at(x, y) + 3, [](int c) { return c < 250; });
   }
@@ -66,8 +69,9 @@ long missing(const Picture& a, const Picture& b) {
   return count;
 }
 
-/// Measured: 8 in place of 3 in one formula leaves 74 pixels without their like, every value of a chart times 1.01 leaves 687;
-/// the kernels of another CPU leave none, or 9 where steps of Uzawa are counted.
+/// Measured: 8 in place of 3 in one formula leaves 74 pixels without their like, every value of a
+/// chart times 1.01 leaves 687; the kernels of another CPU leave none, or 9 where steps of Uzawa
+/// are counted.
 bool same(const Picture& a, const Picture& b) {
   if (a.width != b.width || a.height != b.height) {
     fmt::print("{} x {} pixels, the other {} x {}\n", a.width, a.height, b.width, b.height);
@@ -80,7 +84,7 @@ bool same(const Picture& a, const Picture& b) {
 
 bool is_a_figure(const Picture& picture) {
   std::vector<bool> seen(1 << 24);  // one per colour
-  bool frame = true;                // nothing is cut off: the frame of the picture is white all round
+  bool frame = true;  // nothing is cut off: the frame of the picture is white all round
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       const unsigned char* p = picture.at(x, y);
@@ -90,8 +94,8 @@ bool is_a_figure(const Picture& picture) {
     }
   const auto colours = std::count(seen.begin(), seen.end(), true);
   const double share = static_cast<double>(picture.drawn()) / picture.width / picture.height;
-  fmt::print("{} x {} pixels, {:.1f} % drawn on, {} colours, {}\n", picture.width, picture.height, 100 * share, colours,
-             frame ? "white frame" : "something touches the frame");
+  fmt::print("{} x {} pixels, {:.1f} % drawn on, {} colours, {}\n", picture.width, picture.height,
+             100 * share, colours, frame ? "white frame" : "something touches the frame");
   // drawn lines alone cover one per cent; a blank or a black picture is far outside these
   return picture.width >= 1800 && share > 0.005 && share < 0.9 && colours > 8 && frame;
 }

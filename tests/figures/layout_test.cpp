@@ -37,22 +37,23 @@ TEST(Layout, EveryFaultIsSeen) {
     TextStyle look;
     std::string fault;
   };
-  for (const Added& added :
-       {Added{{960, 300}, "small", {35}, "type of 8.8 pixels in \"small\""},
-        Added{{960, 300}, "$10^{−6}$", {47}, "8.8 pixels"}, Added{{960, 520}, "over it", {48, {0.5}}, "overlap"},
-        Added{{960, 500}, "across it, from below", {48, {0.5}, 90}, "overlap"},
-        Added{{200, 500}, "a vertical axis", {48, {0.5}, 90}, "none"},
-        Added{{-20, 300}, "edge", {48}, "\"edge\" leaves the page"},
-        Added{{1880, 300}, "edge", {48}, "\"edge\" leaves the page"},
-        Added{{300, -20}, "edge", {48}, "\"edge\" leaves the page"},
-        Added{{300, 990}, "edge", {48}, "\"edge\" leaves the page"},
-        Added{{960, 300},
-              "Crouzeix–Raviart, unstructured mesh",
-              {52, {0.5}, 0, palette::ink, 500},
-              "its place holds 500"}}) {
+  for (const Added& added : {Added{{960, 300}, "small", {35}, "type of 8.8 pixels in \"small\""},
+                             Added{{960, 300}, "$10^{−6}$", {47}, "8.8 pixels"},
+                             Added{{960, 520}, "over it", {48, {0.5}}, "overlap"},
+                             Added{{960, 500}, "across it, from below", {48, {0.5}, 90}, "overlap"},
+                             Added{{200, 500}, "a vertical axis", {48, {0.5}, 90}, "none"},
+                             Added{{-20, 300}, "edge", {48}, "\"edge\" leaves the page"},
+                             Added{{1880, 300}, "edge", {48}, "\"edge\" leaves the page"},
+                             Added{{300, -20}, "edge", {48}, "\"edge\" leaves the page"},
+                             Added{{300, 990}, "edge", {48}, "\"edge\" leaves the page"},
+                             Added{{960, 300},
+                                   "Crouzeix–Raviart, unstructured mesh",
+                                   {52, {0.5}, 0, palette::ink, 500},
+                                   "its place holds 500"}}) {
     Page page = good_page();
     page.text(added.at, added.text, added.look);
-    EXPECT_NE(fault(page).find(added.fault), std::string::npos) << added.text << ": " << fault(page);
+    EXPECT_NE(fault(page).find(added.fault), std::string::npos)
+        << added.text << ": " << fault(page);
   }
 }
 
@@ -78,7 +79,8 @@ TEST(Chart, OfZerosIsRefusedInATrueSentence) {
     style.y = "error";
     style.linear_y = linear_y;
     EXPECT_NE(refusal(zeros, [&](const auto& file) { chart_picture(file, style); })
-                  .find("no row to draw: h and error are finite and above 0 in none; accepted: one such row or more"),
+                  .find("no row to draw: h and error are finite and above 0 in none; accepted: one "
+                        "such row or more"),
               std::string::npos);
   }
   MapStyle map;
@@ -97,7 +99,8 @@ TEST(Chart, OfZerosIsRefusedInATrueSentence) {
 
 // vedo #212 and Sunny.jl #309: fields of 1e-200, whose numbers have exponents of three digits.
 TEST(ColourBar, OfTinyValuesStaysOnThePage) {
-  for (const Range& range : {Range{0, 1}, {-3.3e-200, 1.7e-200}, {1.25e-300, 1.75e-300}, {0, 2e100}}) {
+  for (const Range& range :
+       {Range{0, 1}, {-3.3e-200, 1.7e-200}, {1.25e-300, 1.75e-300}, {0, 2e100}}) {
     Page page(1000);
     const double left = Page::width - colour_bar_room(range, 20, 0) + 20;
     draw_colour_bar(page, {left, 200, bar_width, 600}, range, "$u$");
@@ -107,27 +110,34 @@ TEST(ColourBar, OfTinyValuesStaysOnThePage) {
 
 /// Relative luminance, as in the contrast ratio of WCAG 2.
 double luminance(const Colour& colour) {
-  const auto linear = [](double c) { return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+  const auto linear = [](double c) {
+    return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
   return 0.2126 * linear(colour[0]) + 0.7152 * linear(colour[1]) + 0.0722 * linear(colour[2]);
 }
 
 TEST(Styles, EveryLineStandsOutFromWhite) {
   for (const std::string& key : known_keys()) {
     const Colour colour = meaning_of(key).look.colour;
-    EXPECT_GT(1.05 / (luminance(colour) + 0.05), 3) << key;  // the ratio that WCAG 2 asks of graphics
+    EXPECT_GT(1.05 / (luminance(colour) + 0.05), 3)
+        << key;  // the ratio that WCAG 2 asks of graphics
   }
 }
 
 TEST(Styles, WhatLocksIsStrongest) {
-  for (const char* other : {"P1 structured", "P1 layered", "CR structured", "CR unstructured", "P2", "P3", "P4"})
+  for (const char* other :
+       {"P1 structured", "P1 layered", "CR structured", "CR unstructured", "P2", "P3", "P4"})
     EXPECT_GT(meaning_of("P1 unstructured").look.width, meaning_of(other).look.width) << other;
   for (const char* other : {"1", "0.1", "0.01", "0.001", "0.0001", "1e-05"})
-    EXPECT_GT(meaning_of({"epsilon"}, {"1e-6"}).look.width, meaning_of({"epsilon"}, {other}).look.width) << other;
+    EXPECT_GT(meaning_of({"epsilon"}, {"1e-6"}).look.width,
+              meaning_of({"epsilon"}, {other}).look.width)
+        << other;
 }
 
 TEST(Styles, MethodsDifferInColourAndInMarker) {
   std::vector<Look> looks;
-  for (const char* key : {"P1 structured", "P1 unstructured", "CR structured", "CR unstructured", "P2"})
+  for (const char* key :
+       {"P1 structured", "P1 unstructured", "CR structured", "CR unstructured", "P2"})
     looks.push_back(meaning_of(key).look);
   for (std::size_t i = 0; i < looks.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
@@ -138,10 +148,12 @@ TEST(Styles, MethodsDifferInColourAndInMarker) {
 
 TEST(Styles, ANumberHasOneMeaningHoweverItIsWritten) {
   EXPECT_EQ(meaning_of({"epsilon"}, {"1e-06"}).name, meaning_of({"epsilon"}, {"0.000001"}).name);
-  EXPECT_EQ(meaning_of({"element", "mesh"}, {"P1", "unstructured"}).name, meaning_of("P1 unstructured").name);
+  EXPECT_EQ(meaning_of({"element", "mesh"}, {"P1", "unstructured"}).name,
+            meaning_of("P1 unstructured").name);
 }
 
-// A chart of one curve: it has no column that names its series, and takes the first look of its own.
+// A chart of one curve: it has no column that names its series, and takes the first look of its
+// own.
 TEST(Styles, ASeriesOfNoColumnIsNotInTheTable) { EXPECT_FALSE(meaning_of({}, {}).known); }
 
 TEST(Styles, PanelsComeInOneOrder) {

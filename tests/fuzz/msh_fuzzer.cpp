@@ -1,5 +1,6 @@
-// Feeds the MSH reader whatever libFuzzer makes of the corpus: it may build a sound mesh or refuse with an Error of one
-// line; anything else (a crash, undefined behaviour, another exception, a mesh that breaks its promises) ends the run.
+// Feeds the MSH reader whatever libFuzzer makes of the corpus: it may build a sound mesh or refuse
+// with an Error of one line; anything else (a crash, undefined behaviour, another exception, a mesh
+// that breaks its promises) ends the run.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -29,7 +30,8 @@ void check_promises(const antilock::TriangleMesh& mesh) {
   }
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const bool boundary = mesh.edge_triangles(e, 1) < 0;
-    const bool tagged = mesh.edge_tag[e] == EdgeTag::clamped || mesh.edge_tag[e] == EdgeTag::contact;
+    const bool tagged =
+        mesh.edge_tag[e] == EdgeTag::clamped || mesh.edge_tag[e] == EdgeTag::contact;
     require(boundary == tagged);
   }
 }
@@ -49,10 +51,10 @@ std::vector<std::string> pieces(const std::string& text, const char* separators)
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
-/// Half of the mutations are libFuzzer's, of bytes; the others move whole words or lines about, so that files stay
-/// well enough formed to reach the checks of the mesh itself.
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                               unsigned seed) {
+/// Half of the mutations are libFuzzer's, of bytes; the others move whole words or lines about, so
+/// that files stay well enough formed to reach the checks of the mesh itself.
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t max_size, unsigned seed) {
   std::minstd_rand random(seed);
   const std::string text(reinterpret_cast<const char*>(data), size);
   std::vector<std::string> parts = pieces(text, random() % 2 == 0 ? " \n" : "\n");
@@ -85,7 +87,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check_promises(antilock::read_msh(in, "fuzz.msh"));
   } catch (const antilock::Error& error) {
     const std::string message = error.what();
-    require(message.rfind("fuzz.msh: ", 0) == 0 && message.find('\n') == message.npos && message.size() < 400);
+    require(message.rfind("fuzz.msh: ", 0) == 0 && message.find('\n') == message.npos &&
+            message.size() < 400);
   }
   return 0;
 }

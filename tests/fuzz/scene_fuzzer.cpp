@@ -1,6 +1,6 @@
-// Feeds the scene reader, TOML and expressions, whatever libFuzzer makes of the example scenes: it may take a scene,
-// whose load is then finite or refused wherever it is asked for, or refuse with an Error of one line that names the
-// file; anything else ends the run.
+// Feeds the scene reader, TOML and expressions, whatever libFuzzer makes of the example scenes: it
+// may take a scene, whose load is then finite or refused wherever it is asked for, or refuse with
+// an Error of one line that names the file; anything else ends the run.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -25,10 +25,12 @@ void check_promises(const antilock::SceneFile& file) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    check_promises(antilock::read_scene(std::string(reinterpret_cast<const char*>(data), size), "fuzz.toml"));
+    check_promises(
+        antilock::read_scene(std::string(reinterpret_cast<const char*>(data), size), "fuzz.toml"));
   } catch (const antilock::Error& error) {
     const std::string message = error.what();
-    require(message.rfind("fuzz.toml: ", 0) == 0 && message.find('\n') == message.npos && message.size() < 1000);
+    require(message.rfind("fuzz.toml: ", 0) == 0 && message.find('\n') == message.npos &&
+            message.size() < 1000);
   }
   return 0;
 }

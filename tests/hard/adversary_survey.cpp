@@ -1,4 +1,5 @@
-// The adversary at length: problems made by chance against rational arithmetic, counted by what became of them.
+// The adversary at length: problems made by chance against rational arithmetic, counted by what
+// became of them.
 //
 // Run: adversary_survey 0 20000              by the active set
 // Run: adversary_survey 0 2000 uzawa         by Uzawa
@@ -31,12 +32,17 @@ std::string without_numbers(const std::string& message) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    fmt::print(stderr, "adversary_survey: accepted: FROM TO [uzawa] [bounds | friction | corners], the numbers\n");
+    fmt::print(
+        stderr,
+        "adversary_survey: accepted: FROM TO [uzawa] [bounds | friction | corners], the numbers\n");
     return 2;
   }
-  const auto from = static_cast<unsigned>(std::atoi(argv[1])), to = static_cast<unsigned>(std::atoi(argv[2]));
+  const auto from = static_cast<unsigned>(std::atoi(argv[1])),
+             to = static_cast<unsigned>(std::atoi(argv[2]));
   const std::vector<std::string> words(argv + 3, argv + argc);
-  const auto asked = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  const auto asked = [&](const char* word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
   const By solver = asked("uzawa") ? By::uzawa : By::active_set;
   const auto problem_of = asked("friction")  ? random_friction
                           : asked("bounds")  ? random_bounds
@@ -55,7 +61,8 @@ int main(int argc, char** argv) {
     ++counts[fmt::format("{}: {}", exact_solution, outcome)];
     if (judgement.outcome == Outcome::refused || judgement.outcome == Outcome::warned)
       ++reasons[fmt::format("{}: {:.70}", outcome, without_numbers(judgement.reason))];
-    if (judgement.over_claim > 10) ++counts[fmt::format("{}: over 10 times what it claims", exact_solution)];
+    if (judgement.over_claim > 10)
+      ++counts[fmt::format("{}: over 10 times what it claims", exact_solution)];
     if (judgement.outcome == Outcome::quietly_wrong)
       fmt::print("problem {}: {}, error {:.1e}\n", seed, exact_solution, judgement.error);
   }

@@ -1,5 +1,5 @@
-// Problems that have no solution at epsilon = 0, because K_h and the kernel G_h do not meet, and problems close to
-// them: foretold by the hypotheses' check, refused by the solver, never answered.
+// Problems that have no solution at epsilon = 0, because K_h and the kernel G_h do not meet, and
+// problems close to them: foretold by the hypotheses' check, refused by the solver, never answered.
 #include "antilock/analysis/hypotheses.hpp"
 #include "antilock/form/gradient_forms.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
@@ -35,7 +35,9 @@ VariationalInequality platen(const Element& element) {
   return block(with_free_sides(structured_mesh(6, Domain{0})), element);
 }
 /// Held all round: what the plate pushes in has nowhere to go.
-VariationalInequality confined(const Element& element) { return block(structured_mesh(6, Domain{0}), element); }
+VariationalInequality confined(const Element& element) {
+  return block(structured_mesh(6, Domain{0}), element);
+}
 
 /// The obstacle lifts the layer by a tenth; a locked layer stays at 0.
 VariationalInequality lifted_layer(const TriangleMesh& mesh, const Element& element) {
@@ -50,7 +52,8 @@ struct Case {
 };
 std::vector<Case> cases() {
   return {{"beam, reduced", beam(ShearIntegration::reduced), true},
-          {"beam, full", beam(ShearIntegration::full), true},  // locked, but at rest it meets everything
+          {"beam, full", beam(ShearIntegration::full),
+           true},  // locked, but at rest it meets everything
           {"lifted beam, reduced", lifted_beam(ShearIntegration::reduced), true},
           {"lifted beam, full", lifted_beam(ShearIntegration::full), false},
           {"turned beam", turned_beam(), false},
@@ -60,7 +63,8 @@ std::vector<Case> cases() {
           {"confined block, CR", confined(crouzeix_raviart()), false},
           {"lifted layer, P1 structured", lifted_layer(structured_mesh(8), p1()), true},
           {"lifted layer, P1 unstructured", lifted_layer(unstructured_mesh(8), p1()), false},
-          {"lifted layer, CR unstructured", lifted_layer(unstructured_mesh(8), crouzeix_raviart()), true}};
+          {"lifted layer, CR unstructured", lifted_layer(unstructured_mesh(8), crouzeix_raviart()),
+           true}};
 }
 
 TEST(Infeasible, TheDistanceToTheKernelForetellsTheRefusal) {
@@ -79,14 +83,17 @@ TEST(Infeasible, TheDistanceToTheKernelForetellsTheRefusal) {
       EXPECT_LT(worst_violation(s.kkt), 1e-8);
     } catch (const NotConverged& refusal) {
       EXPECT_FALSE(feasible) << refusal.what();
-      EXPECT_EQ(std::string(refusal.what()).find('\n'), std::string::npos);  // one line, which names the cause
-      EXPECT_NE(std::string(refusal.what()).find("infeasible"), std::string::npos) << refusal.what();
+      EXPECT_EQ(std::string(refusal.what()).find('\n'),
+                std::string::npos);  // one line, which names the cause
+      EXPECT_NE(std::string(refusal.what()).find("infeasible"), std::string::npos)
+          << refusal.what();
     }
   }
 }
 
 TEST(Infeasible, CloseToItTheAnswerIsRightOrRefused) {
-  // As epsilon -> 0 the forces of an infeasible problem grow like 1/epsilon: epsilon times the force tends to a limit.
+  // As epsilon -> 0 the forces of an infeasible problem grow like 1/epsilon: epsilon times the
+  // force tends to a limit.
   for (auto& [name, problem, feasible] : cases()) {
     if (feasible) continue;
     problem.compliance = 1e-8;
@@ -99,7 +106,8 @@ TEST(Infeasible, CloseToItTheAnswerIsRightOrRefused) {
         const Solution s = active_set(problem);
         ++answers;
         EXPECT_LT(worst_violation(s.kkt), 1e-6);
-        EXPECT_NEAR(epsilon * s.p.lpNorm<Eigen::Infinity>() / limit, 1, 0.01);  // measured: 0.0025 at most
+        EXPECT_NEAR(epsilon * s.p.lpNorm<Eigen::Infinity>() / limit, 1,
+                    0.01);  // measured: 0.0025 at most
       } catch (const NotConverged& refusal) {
         EXPECT_EQ(std::string(refusal.what()).find('\n'), std::string::npos);
       }
@@ -117,13 +125,14 @@ TEST(Hypotheses, HoldWhereTheTheorySaysSo) {
     const Space space(mesh, *element);
     const Hypotheses h = check_hypotheses(test::stiff_problem(space, 1e-6), gradients(space));
     EXPECT_NEAR(h.coercivity, 1, 1e-9) << element->name();  // a1 + a0 is the gradient form itself
-    int body = 0;                                           // unknowns that a0 does not see: the kernel's, always
+    int body = 0;  // unknowns that a0 does not see: the kernel's, always
     for (int i = 0; i < space.size(); ++i) body += space.dof_coordinates()(i, 1) > 0;
     for (const int i : space.dirichlet_dofs()) body -= space.dof_coordinates()(i, 1) > 0;
     if (element == &p1())
       EXPECT_EQ(h.kernel, body);
     else
-      EXPECT_GT(h.kernel, body + mesh.triangle_count() / 8);  // half the layer's triangles, as measured elsewhere
+      EXPECT_GT(h.kernel, body + mesh.triangle_count() /
+                                     8);  // half the layer's triangles, as measured elsewhere
     EXPECT_EQ(h.free, space.free_count());
     EXPECT_TRUE(h.coercive() && h.intersects_kernel());
   }

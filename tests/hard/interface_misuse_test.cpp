@@ -1,5 +1,5 @@
-// No quiet wrong answer through any interface: what an ordinary mistake at the programming interface comes to. Each of
-// these was once answered with a number, or ended the program.
+// No quiet wrong answer through any interface: what an ordinary mistake at the programming
+// interface comes to. Each of these was once answered with a number, or ended the program.
 #include <filesystem>
 #include <fstream>
 
@@ -23,7 +23,8 @@ double down(double, double) { return -10; }
 
 /// A chain of n unknowns, all of them pulled by 1 and held at 0 by a friction of g.
 VariationalInequality rubbing_chain(int n, double g) {
-  VariationalInequality problem = small_problem(chain(n), Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n));
+  VariationalInequality problem =
+      small_problem(chain(n), Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n));
   problem.bounds.upper = problem.bounds.lower;
   problem.bounds.force_limit = Eigen::VectorXd::Constant(n, g);
   return problem;
@@ -32,8 +33,10 @@ VariationalInequality rubbing_chain(int n, double g) {
 TEST(InterfaceMisuse, SceneAndMeshAgreeOnTheDepthOfTheLayer) {
   const TriangleMesh unit = structured_mesh(4), flat = structured_mesh(4, {0.25});
   const Space on_unit(unit, p1()), on_flat(flat, p1());
-  expect_refused([&] { assemble(Scene(Body{down}, ThinLayer{0.25}), on_unit); }, "accepted: y = -0.25");
-  expect_refused([&] { assemble(Scene(Body{down}, StiffLayer{0.25}), on_flat); }, "accepted: y = -1");
+  expect_refused([&] { assemble(Scene(Body{down}, ThinLayer{0.25}), on_unit); },
+                 "accepted: y = -0.25");
+  expect_refused([&] { assemble(Scene(Body{down}, StiffLayer{0.25}), on_flat); },
+                 "accepted: y = -1");
   EXPECT_NO_THROW(assemble(Scene(Body{down}, ThinLayer{0.25}), on_flat));
 }
 
@@ -57,7 +60,8 @@ TEST(InterfaceMisuse, UzawaKnowsNoUnits) {
   }
 }
 
-// Rows of B decades apart: on the way to u the mix of the corrections is 1e8 to 1e15 times its size.
+// Rows of B decades apart: on the way to u the mix of the corrections is 1e8 to 1e15 times its
+// size.
 TEST(InterfaceMisuse, TheWayToAnAnswerMayBeLong) {
   for (const unsigned seed : {454U, 696U, 723U, 914U, 986U, 1132U}) {
     const VariationalInequality problem = random_problem(seed);
@@ -70,8 +74,16 @@ TEST(InterfaceMisuse, TheSpacesOfOneBodyHaveOneMesh) {
   const TriangleMesh coarse = structured_mesh(2, {0}), fine = structured_mesh(4, {0});
   const Space a(coarse, p1()), b(fine, p1()), c(coarse, p2());
   expect_refused([&] { assemble(PlaneStrain{}, {a, b}); }, "different meshes");
-  expect_refused([&] { assemble(Plate{}, PlateSpace{a, {b, b}, ShearRule::exact}); }, "different meshes");
-  expect_refused([&] { assemble(Plate{}, PlateSpace{a, {c, a}, ShearRule::mean}); }, "one element twice");
+  expect_refused(
+      [&] {
+        assemble(Plate{}, PlateSpace{a, {b, b}, ShearRule::exact});
+      },
+      "different meshes");
+  expect_refused(
+      [&] {
+        assemble(Plate{}, PlateSpace{a, {c, a}, ShearRule::mean});
+      },
+      "one element twice");
 }
 
 TEST(InterfaceMisuse, APlateHasALoadAndAnObstacleSomewhere) {
@@ -86,7 +98,8 @@ TEST(InterfaceMisuse, APlateHasALoadAndAnObstacleSomewhere) {
 }
 
 TEST(InterfaceMisuse, ExactSolutionsRefuseWhatTheyAreNotFor) {
-  for (const double t : {nan, -0.1, infinity}) expect_refused([&] { ExactPlate exact(t); }, "thickness");
+  for (const double t : {nan, -0.1, infinity})
+    expect_refused([&] { ExactPlate exact(t); }, "thickness");
   expect_refused([] { ExactPlate(1e-4, infinity); }, "load");
   expect_refused([] { ExactPlate(1e-4, 256, 1e-300); }, "gap");
   const LoadModes modes(3);
@@ -109,7 +122,9 @@ TEST(InterfaceMisuse, WorstLoadsAreThoseOfTheUnitSquares) {
 }
 
 TEST(InterfaceMisuse, EigenvaluesOfAnySizeAndUnit) {
-  const auto times = [](double s) { return [s](const Eigen::VectorXd& x) { return Eigen::VectorXd(s * x); }; };
+  const auto times = [](double s) {
+    return [s](const Eigen::VectorXd& x) { return Eigen::VectorXd(s * x); };
+  };
   for (const Eigen::Index n : {1, 2, 5}) EXPECT_EQ(largest_eigenvalue(times(0), n), 0);
   for (const double s : {1e-300, 1e300}) EXPECT_NEAR(largest_eigenvalue(times(s), 4) / s, 1, 1e-12);
   expect_refused([&] { largest_eigenvalue(times(1), 0); }, "no unknowns");
@@ -125,7 +140,8 @@ TEST(InterfaceMisuse, ErrorsAndEnergiesAreOfTheirOwnSpace) {
   const VariationalInequality problem = assemble(Scene(Body{down}, StiffLayer{0.1}), affine);
   const Solution u = active_set(problem);
   antilock::Reference none{[](double x, double) { return x == 0.5 ? nan : 0; },
-                           [](double, double) { return Eigen::Vector2d(0, 0); }, [](double, double) { return 0.0; }};
+                           [](double, double) { return Eigen::Vector2d(0, 0); },
+                           [](double, double) { return 0.0; }};
   EXPECT_TRUE(std::isnan(measure_errors(affine, u, 0.1, none).max));
   EXPECT_TRUE(std::isnan(measure_errors(affine, u, 0.1, none).max_at_unknowns));
   expect_refused([&] { measure_errors(broken, u, 0.1, none); }, "of this space");
@@ -138,7 +154,8 @@ TEST(InterfaceMisuse, ErrorsAndEnergiesAreOfTheirOwnSpace) {
 
 TEST(InterfaceMisuse, ContactLengthsAreThoseOfTheirBasis) {
   const TriangleMesh mesh = structured_mesh(4);
-  for (int degree = 2; degree <= 6; ++degree) {  // Newton and Cotes: what the clamped ends of Gamma_C keep
+  for (int degree = 2; degree <= 6;
+       ++degree) {  // Newton and Cotes: what the clamped ends of Gamma_C keep
     const double at_end[] = {1.0 / 6, 1.0 / 8, 7.0 / 90, 19.0 / 288, 41.0 / 840};
     const Space space(mesh, lagrange(degree));
     EXPECT_NEAR(contact_lengths(space).sum(), 1 - 2 * 0.25 * at_end[degree - 2], 1e-13) << degree;

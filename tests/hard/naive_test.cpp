@@ -14,9 +14,10 @@ std::vector<Setting> settings() {
           {unstructured_mesh(16), &crouzeix_raviart()}};
 }
 
-// The sum A1 + epsilon^-2 A0 rounds A1 by eps / epsilon^2, and so the equations hold to a small multiple of that: measured
-// with seven kernels of OpenBLAS up to 4.6 eps / epsilon^2; the bound is 14 times that. Below 1e-8 nothing is left. An
-// answer off by more than 1e-6 carries at least a warning, one off by more than 1e-3 is refused.
+// The sum A1 + epsilon^-2 A0 rounds A1 by eps / epsilon^2, and so the equations hold to a small
+// multiple of that: measured with seven kernels of OpenBLAS up to 4.6 eps / epsilon^2; the bound is
+// 14 times that. Below 1e-8 nothing is left. An answer off by more than 1e-6 carries at least a
+// warning, one off by more than 1e-3 is refused.
 TEST(Naive, IsRightWhereEpsilonIsModerateAndNoWrongAnswerGetsPastTheChecks) {
   int wrong = 0, silent = 0;
   for (const Setting& s : settings()) {
@@ -28,7 +29,8 @@ TEST(Naive, IsRightWhereEpsilonIsModerateAndNoWrongAnswerGetsPastTheChecks) {
       for (const SummedFactor kind : {SummedFactor::cholesky, SummedFactor::lu}) {
         NaiveResult answer = naive_summed_solve(problem, kind);
         const double off = test::relative_difference(answer.solution.u, right);
-        SCOPED_TRACE(answer.solution.solver + " at 1e-" + std::to_string(exponent) + ", off by " + std::to_string(off));
+        SCOPED_TRACE(answer.solution.solver + " at 1e-" + std::to_string(exponent) + ", off by " +
+                     std::to_string(off));
         if (exponent <= 2) {
           EXPECT_EQ(answer.reason, ConvergedReason::converged);
           EXPECT_LT(off, 1e-9);  // rounded: 2e-12 at 1e-2
@@ -59,9 +61,12 @@ TEST(Naive, HasNoSumAtEpsilonZeroAndStopsAtItsCap) {
   const Space space(structured_mesh(4), p1());
   EXPECT_THROW(naive_summed_solve(test::stiff_problem(space, 0), SummedFactor::lu), Error);
   VariationalInequality with_a_fixed_row = test::stiff_problem(space, 1);
-  with_a_fixed_row.fixed_compliances = Eigen::VectorXd::Constant(1, 1e-3);  // of the last row, which would get 1
-  expect_refused([&] { naive_summed_solve(with_a_fixed_row, SummedFactor::lu); }, "fixed compliances");
-  const NaiveResult answer = naive_summed_solve(test::stiff_problem(space, 1), SummedFactor::cholesky, 1);
+  with_a_fixed_row.fixed_compliances =
+      Eigen::VectorXd::Constant(1, 1e-3);  // of the last row, which would get 1
+  expect_refused([&] { naive_summed_solve(with_a_fixed_row, SummedFactor::lu); },
+                 "fixed compliances");
+  const NaiveResult answer =
+      naive_summed_solve(test::stiff_problem(space, 1), SummedFactor::cholesky, 1);
   EXPECT_EQ(answer.reason, ConvergedReason::max_iterations);
   EXPECT_EQ(to_string(answer.reason), "step cap");
   EXPECT_EQ(to_string(ConvergedReason::converged) + to_string(ConvergedReason::cycled) +

@@ -1,5 +1,5 @@
-// Nasty meshes: needles, slivers, strong grading, thin layers, any numbering and orientation. An answer that quadruple
-// precision proves right, or a refusal of one line.
+// Nasty meshes: needles, slivers, strong grading, thin layers, any numbering and orientation. An
+// answer that quadruple precision proves right, or a refusal of one line.
 #include "antilock/mesh/graded.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "hard/quad_reference.hpp"
@@ -12,12 +12,14 @@ using namespace test;
 std::vector<TaggedEdge> boundary(const TriangleMesh& mesh) {
   std::vector<TaggedEdge> tagged;
   for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] != EdgeTag::interior) tagged.push_back({mesh.edges(e, 0), mesh.edges(e, 1), mesh.edge_tag[e]});
+    if (mesh.edge_tag[e] != EdgeTag::interior)
+      tagged.push_back({mesh.edges(e, 0), mesh.edges(e, 1), mesh.edge_tag[e]});
   return tagged;
 }
 
 /// The tensor mesh of x = at_x(column), y = at_y(row), rows counted from -n to n.
-TriangleMesh on_lines(int n, const std::function<double(int)>& at_x, const std::function<double(int)>& at_y) {
+TriangleMesh on_lines(int n, const std::function<double(int)>& at_x,
+                      const std::function<double(int)>& at_y) {
   std::vector<double> x, y;
   for (int i = 0; i <= n; ++i) x.push_back(at_x(i));
   for (int j = -n; j <= n; ++j) y.push_back(at_y(j));
@@ -27,7 +29,8 @@ TriangleMesh on_lines(int n, const std::function<double(int)>& at_x, const std::
 /// 0, 2^-(n-1), ..., 1/4, 1/2, 1: each cell twice as long as the one before; exact in binary.
 double doubling(int i, int n) { return i == 0 ? 0 : std::ldexp(1.0, i - n); }
 
-/// Every inner vertex moved at random, by the share `reach` of the way to where a triangle would turn over.
+/// Every inner vertex moved at random, by the share `reach` of the way to where a triangle would
+/// turn over.
 TriangleMesh jittered(const TriangleMesh& mesh, double reach, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> angle(0, 6.283185307179586);
@@ -36,11 +39,13 @@ TriangleMesh jittered(const TriangleMesh& mesh, double reach, unsigned seed) {
     for (int i = 0; i < 3; ++i) around[mesh.triangles(t, i)].push_back(t);
   std::vector<char> fixed(mesh.vertex_count(), 0);
   for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] != EdgeTag::interior) fixed[mesh.edges(e, 0)] = fixed[mesh.edges(e, 1)] = 1;
+    if (mesh.edge_tag[e] != EdgeTag::interior)
+      fixed[mesh.edges(e, 0)] = fixed[mesh.edges(e, 1)] = 1;
   TriangleMesh moved = mesh;
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     if (fixed[v]) continue;
-    const Eigen::RowVector2d home = moved.vertices.row(v), way(std::cos(angle(random)), std::sin(angle(random)));
+    const Eigen::RowVector2d home = moved.vertices.row(v),
+                             way(std::cos(angle(random)), std::sin(angle(random)));
     double room = 1;  // the area falls linearly along the way
     for (const int t : around[v]) {
       const double before = moved.twice_area(t);
@@ -51,14 +56,16 @@ TriangleMesh jittered(const TriangleMesh& mesh, double reach, unsigned seed) {
     }
     moved.vertices.row(v) = home + reach * room * way;
   }
-  return make_triangle_mesh(moved.vertices, moved.triangles, moved.region, boundary(mesh), "jittered");
+  return make_triangle_mesh(moved.vertices, moved.triangles, moved.region, boundary(mesh),
+                            "jittered");
 }
 
 double worst_aspect(const TriangleMesh& mesh) {
   double worst = 1;
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i)
-      worst = std::max(worst, std::pow(mesh.edge_length(mesh.triangle_edges(t, i)), 2) / mesh.twice_area(t));
+      worst = std::max(
+          worst, std::pow(mesh.edge_length(mesh.triangle_edges(t, i)), 2) / mesh.twice_area(t));
   return worst;
 }
 
@@ -97,7 +104,9 @@ TEST_P(Nasty, NeedlesAlongX) {
 }
 
 TEST_P(Nasty, NeedlesAlongY) {
-  const auto x = [](int i) { return i <= 8 ? doubling(i, 8) / 4096 / 2 : 1 - doubling(16 - i, 8) / 4096 / 2; };
+  const auto x = [](int i) {
+    return i <= 8 ? doubling(i, 8) / 4096 / 2 : 1 - doubling(16 - i, 8) / 4096 / 2;
+  };
   const TriangleMesh mesh = on_lines(16, x, [](int j) { return j / 16.0; });
   EXPECT_GT(worst_aspect(mesh), 1e4);
   prove("needles along y", mesh, chosen(), all);
@@ -122,20 +131,24 @@ TEST_P(Nasty, GradedFrom1em1To1em5) {
 
 TEST_P(Nasty, VerticesMovedUntilTrianglesAlmostTurnOver) {
   for (const double reach : {0.9, 0.99}) {  // aspect 3e3 and 3e6
-    prove("structured, moved " + std::to_string(reach), jittered(structured_mesh(16), reach, 1), chosen(), all);
-    prove("unstructured, moved " + std::to_string(reach), jittered(unstructured_mesh(16), reach, 2), chosen(), all);
+    prove("structured, moved " + std::to_string(reach), jittered(structured_mesh(16), reach, 1),
+          chosen(), all);
+    prove("unstructured, moved " + std::to_string(reach), jittered(unstructured_mesh(16), reach, 2),
+          chosen(), all);
   }
 }
 
-/// Whether the problem of a mesh and a scene has an answer, which must be right to 1e-6, the level above which the library
-/// refuses; a refusal has one line.
-bool survives(const std::function<TriangleMesh()>& make, const Element& element, const Scene& scene) {
+/// Whether the problem of a mesh and a scene has an answer, which must be right to 1e-6, the level
+/// above which the library refuses; a refusal has one line.
+bool survives(const std::function<TriangleMesh()>& make, const Element& element,
+              const Scene& scene) {
   try {
     const TriangleMesh mesh = make();
     const VariationalInequality problem = assemble(scene, Space(mesh, element));
     const Solution solution = active_set(problem);
     const QuadSolution exact = settle(problem, solution.active, quad_reference);
-    if (!(exact.residual < 1e-18)) return false;  // what u is worth quadruple precision cannot tell either
+    if (!(exact.residual < 1e-18))
+      return false;  // what u is worth quadruple precision cannot tell either
     EXPECT_LT(distance(solution.u, exact.u), 1e-6)
         << "layer " << scene.layer().index() << ", aspect " << worst_aspect(mesh);
     return true;
@@ -145,32 +158,37 @@ bool survives(const std::function<TriangleMesh()>& make, const Element& element,
   }
 }
 
-// Far beyond what a mesh should be (aspect 1e9 and more) double precision may give up, but not in silence.
+// Far beyond what a mesh should be (aspect 1e9 and more) double precision may give up, but not in
+// silence.
 TEST_P(Nasty, FlatTrianglesAreSurvivedOrRefused) {
   int survived = 0, without_layer = 0;
   const auto flat = [](bool structured, Domain domain, double reach) {
-    return [=] { return jittered(structured ? structured_mesh(8, domain) : unstructured_mesh(8, domain), reach, 5); };
+    return [=] {
+      return jittered(structured ? structured_mesh(8, domain) : unstructured_mesh(8, domain), reach,
+                      5);
+    };
   };
   for (const bool structured : {true, false}) {
     for (const double reach : {0.999, 0.9999, 0.99999})
       for (const double epsilon : {1.0, 1e-4, 0.0})
         survived += survives(flat(structured, {}, reach), chosen(), stiff_scene(epsilon));
-    // without a stiff form as with one: there a plain solve would be taken for the answer. The cells of the unstructured
-    // mesh are as small as its layer is thin: 1e-3 would be 26,000 unknowns
+    // without a stiff form as with one: there a plain solve would be taken for the answer. The
+    // cells of the unstructured mesh are as small as its layer is thin: 1e-3 would be 26,000
+    // unknowns
     const double thin = structured ? 1e-3 : 1e-2;
     for (const double reach : {0.99, 0.9999})
       for (const Layer& layer : {Layer{NoLayer{}}, Layer{VentcelLayer{}}, Layer{ThinLayer{thin}}}) {
         const Domain domain{std::holds_alternative<ThinLayer>(layer) ? thin : 0};
-        without_layer +=
-            survives(flat(structured, domain, reach), chosen(), Scene({paper_load}, layer, UnilateralContact{}));
+        without_layer += survives(flat(structured, domain, reach), chosen(),
+                                  Scene({paper_load}, layer, UnilateralContact{}));
       }
   }
   EXPECT_GE(survived, 5) << "an aspect of 1e9 is survived";
   EXPECT_GE(without_layer, 6) << "the less flat are survived";
 }
 
-// A structured mesh moved by t h has no kernel, only functions whose d/dy is nearly zero: the modes that the
-// corrections serve last. Nothing tells them from a kernel but the compliance equation.
+// A structured mesh moved by t h has no kernel, only functions whose d/dy is nearly zero: the modes
+// that the corrections serve last. Nothing tells them from a kernel but the compliance equation.
 TEST(NearlyAKernel, IsNotTakenForOneInSilence) {
   int survived = 0;
   for (const int n : {8, 16})
@@ -189,19 +207,23 @@ TEST_P(Nasty, TheCoarsestMeshes) {
     const TriangleMesh mesh = structured_mesh(n);
     if (Space(mesh, chosen()).free_count() == 0) continue;  // P1, n = 1: every vertex is clamped
     prove("coarsest, n = " + std::to_string(n), mesh, chosen(), {1, 1e-2});
-    // below, u itself tends to 0 on the meshes that hold no function of the kernel: right on the scale of the forces
+    // below, u itself tends to 0 on the meshes that hold no function of the kernel: right on the
+    // scale of the forces
     for (const double epsilon : {1e-4, 1e-8, 0.0}) {
       const Space space(mesh, chosen());
       const VariationalInequality problem = stiff_problem(space, epsilon);
       const Solution solution = active_set(problem);
       const QuadSolution exact = settle(problem, solution.active, quad_reference);
-      const double scale = problem.load.cwiseAbs().cwiseQuotient(Eigen::VectorXd(problem.a1.diagonal())).maxCoeff();
-      EXPECT_LT(static_cast<double>(largest(solution.u.cast<Quad>() - exact.u)), 1e-9 * scale) << n << ", " << epsilon;
+      const double scale =
+          problem.load.cwiseAbs().cwiseQuotient(Eigen::VectorXd(problem.a1.diagonal())).maxCoeff();
+      EXPECT_LT(static_cast<double>(largest(solution.u.cast<Quad>() - exact.u)), 1e-9 * scale)
+          << n << ", " << epsilon;
     }
   }
 }
 
-// The answer belongs to the places, not to the numbers: vertices, triangles and their corners shuffled.
+// The answer belongs to the places, not to the numbers: vertices, triangles and their corners
+// shuffled.
 TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
   const TriangleMesh mesh = unstructured_mesh(16);
   const Space space(mesh, chosen());
@@ -231,7 +253,8 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
       }
       std::vector<TaggedEdge> tagged = boundary(mesh);
       for (TaggedEdge& e : tagged) e = {vertex[e.to], vertex[e.from], e.tag};
-      const Space other(make_triangle_mesh(vertices, triangles, region, tagged, "shuffled"), chosen());
+      const Space other(make_triangle_mesh(vertices, triangles, region, tagged, "shuffled"),
+                        chosen());
       VariationalInequality problem = stiff_problem(other, epsilon);
       // out of order they only cost steps
       std::shuffle(problem.bounds.unknowns.begin(), problem.bounds.unknowns.end(), random);
@@ -248,6 +271,7 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Element, Nasty, testing::Values("P1", "CR"), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Element, Nasty, testing::Values("P1", "CR"),
+                         [](const auto& info) { return info.param; });
 
 }  // namespace antilock::hard::nasty_mesh_test

@@ -1,6 +1,7 @@
-// Plane strain with two materials, or one that hardly gives way, whose moduli are many decades apart: random blocks, with a
-// coating or of rubber, against the same block assembled and solved with 60 digits. The kind of MYSTRAN #146 and
-// K2Engineering #7, a body that hangs from a far softer one.
+// Plane strain with two materials, or one that hardly gives way, whose moduli are many decades
+// apart: random blocks, with a coating or of rubber, against the same block assembled and solved
+// with 60 digits. The kind of MYSTRAN #146 and K2Engineering #7, a body that hangs from a far
+// softer one.
 #include <cstdlib>
 
 #include "antilock/core/error.hpp"
@@ -13,7 +14,8 @@
 
 namespace antilock::hard::plane_strain_far_apart_test {
 
-/// A block on a mesh, in numbers that a second assembly reads: with a coating, or of rubber (mu = 1, lambda = 1 / epsilon).
+/// A block on a mesh, in numbers that a second assembly reads: with a coating, or of rubber (mu =
+/// 1, lambda = 1 / epsilon).
 struct Block {
   TriangleMesh mesh;
   const Element *in_x = nullptr, *in_y = nullptr;
@@ -37,9 +39,9 @@ struct Block {
   }
 };
 
-/// The weight of a row of compliance 0 beside the modulus in the other terms. Rows of B that differ by round-off, 1e-16, count
-/// as equal (README): their difference weighs 1e22 * 1e-32, next to nothing. What gives way is 1e-22 times the ratio of the
-/// moduli.
+/// The weight of a row of compliance 0 beside the modulus in the other terms. Rows of B that differ
+/// by round-off, 1e-16, count as equal (README): their difference weighs 1e22 * 1e-32, next to
+/// nothing. What gives way is 1e-22 times the ratio of the moduli.
 const Real rigid("1e22");
 
 /// A square of the energy: coefficients of (u_x, u_y, v_x, v_y), and its weight.
@@ -71,16 +73,19 @@ std::vector<Square> squares_of_rubber(double epsilon) {
   return all;
 }
 
-/// The values at the points of one component's basis on triangle t behind those of the numbering before it.
+/// The values at the points of one component's basis on triangle t behind those of the numbering
+/// before it.
 class Component {
  public:
-  Component(const Space& space, int first) : space_(space), first_(first), name_(space.element().name()) {}
+  Component(const Space& space, int first)
+      : space_(space), first_(first), name_(space.element().name()) {}
   int unknown(int t, int i) const { return first_ + space_.cell_dofs()(t, i); }
   int count() const { return name_ == "P2" ? 6 : 3; }
   RealMatrix gradients(const RealTriangle& triangle, const Eigen::Matrix<Real, 3, 1>& l) const {
     return derivatives(name_, l) * triangle.gradient;
   }
-  /// The step of a CR function across edge e at its first end, as a row of all unknowns; at the other end the opposite.
+  /// The step of a CR function across edge e at its first end, as a row of all unknowns; at the
+  /// other end the opposite.
   RealVector step(int e, int size) const {
     const TriangleMesh& mesh = space_.mesh();
     RealVector row = RealVector::Zero(size);
@@ -90,7 +95,8 @@ class Component {
       Eigen::Matrix<Real, 3, 1> end = Eigen::Matrix<Real, 3, 1>::Zero(), middle = end;
       for (int i = 0; i < 3; ++i) {
         if (mesh.triangles(t, i) == mesh.edges(e, 0)) end(i) = 1;
-        if (mesh.triangles(t, i) == mesh.edges(e, 0) || mesh.triangles(t, i) == mesh.edges(e, 1)) middle(i) = Real(0.5);
+        if (mesh.triangles(t, i) == mesh.edges(e, 0) || mesh.triangles(t, i) == mesh.edges(e, 1))
+          middle(i) = Real(0.5);
       }
       const RealVector half = basis(name_, end) - basis(name_, middle);
       for (int i = 0; i < 3; ++i) row(unknown(t, i)) += side == 0 ? half(i) : Real(-half(i));
@@ -142,7 +148,8 @@ RealMatrix assembled(const Block& block, const VectorSpace& space) {
     for (int e = 0; e < mesh.edge_count() && components[c].jumps(); ++e) {
       const bool held = is_dirichlet(mesh.edge_tag[e]) && (c == 1 || !block.coating.sliding);
       if (mesh.edge_triangles(e, 1) < 0 && !held) continue;
-      const RealVector step = components[c].step(e, space.size());  // an affine step from s to -s: mean square s^2 / 3
+      const RealVector step =
+          components[c].step(e, space.size());  // an affine step from s to -s: mean square s^2 / 3
       for (Eigen::Index i = 0; i < step.size(); ++i)
         for (Eigen::Index j = 0; j < step.size() && step(i) != 0; ++j)
           k(i, j) += Real(2 * block.coating.jump_weight) / 3 * step(i) * step(j);
@@ -150,9 +157,10 @@ RealMatrix assembled(const Block& block, const VectorSpace& space) {
   return k;
 }
 
-/// u of the block with 60 digits: the pieces of its bounds are exchanged from those of an answer on. Empty where they do not
-/// settle.
-RealVector exact_solution(const VariationalInequality& problem, const RealMatrix& k, BoundStatuses status) {
+/// u of the block with 60 digits: the pieces of its bounds are exchanged from those of an answer
+/// on. Empty where they do not settle.
+RealVector exact_solution(const VariationalInequality& problem, const RealMatrix& k,
+                          BoundStatuses status) {
   const RealVector load = problem.load.cast<Real>();
   status.resize(problem.bounds.unknowns.size(), BoundStatus::inactive);
   const auto most = [&](std::size_t i) { return problem.bounds.force_limit(Eigen::Index(i)); };
@@ -195,8 +203,10 @@ RealVector exact_solution(const VariationalInequality& problem, const RealMatrix
       const Real above = u(c) - Real(problem.bounds.lower(Eigen::Index(i)));
       BoundStatus next = status[i];
       if (is_active(status[i])) {
-        if (std::isfinite(most(i)) && force(c) > Real(most(i)) + near_force) next = BoundStatus::slip_below;
-        if (sticks && std::isfinite(most(i)) && force(c) < -Real(most(i)) - near_force) next = BoundStatus::slip_above;
+        if (std::isfinite(most(i)) && force(c) > Real(most(i)) + near_force)
+          next = BoundStatus::slip_below;
+        if (sticks && std::isfinite(most(i)) && force(c) < -Real(most(i)) - near_force)
+          next = BoundStatus::slip_above;
         if (!sticks && force(c) < -near_force) next = BoundStatus::inactive;
       } else if (status[i] == BoundStatus::inactive) {
         if (sticks || above < -near_u) next = BoundStatus::at_lower;
@@ -226,13 +236,15 @@ Assessment assess(const Block& block) {
     return {SceneOutcome::refused, 0, error.what()};
   }
   const RealVector exact = exact_solution(problem, assembled(block, space), s.status);
-  // A u that has locked is the round-off of its size before (Solution::error): rounding the rows of B has moved it. It is
-  // compared with that size.
+  // A u that has locked is the round-off of its size before (Solution::error): rounding the rows of
+  // B has moved it. It is compared with that size.
   Assessment found = compare_with_exact(s, exact);
   double largest = 0;
-  for (Eigen::Index i = 0; i < exact.size(); ++i) largest = std::max(largest, std::abs(static_cast<double>(exact(i))));
+  for (Eigen::Index i = 0; i < exact.size(); ++i)
+    largest = std::max(largest, std::abs(static_cast<double>(exact(i))));
   const bool is_locked = largest < 1e-5 * s.penalised_max_u;
-  if (is_locked && found.error * largest <= 1e-6 * s.penalised_max_u) found.outcome = SceneOutcome::right;
+  if (is_locked && found.error * largest <= 1e-6 * s.penalised_max_u)
+    found.outcome = SceneOutcome::right;
   return found;
 }
 
@@ -240,8 +252,9 @@ Lame material(double young, double poisson) {
   return {young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
 }
 
-/// Block number `seed` of an endless list: P1, CR, P2 or Kouhia and Stenberg's pair, of rubber or with a coating up to 1e14
-/// times as stiff or as soft; pushed down, sliding or held, its sides free or held, with friction and without.
+/// Block number `seed` of an endless list: P1, CR, P2 or Kouhia and Stenberg's pair, of rubber or
+/// with a coating up to 1e14 times as stiff or as soft; pushed down, sliding or held, its sides
+/// free or held, with friction and without.
 Block random_block(unsigned seed) {
   Dice dice(seed);
   Block block;
@@ -251,7 +264,8 @@ Block random_block(unsigned seed) {
   block.in_x = element == 3 ? &p1() : elements[element];
   block.in_y = element == 3 ? &crouzeix_raviart() : elements[element];
   const int cells = element == 2 ? 2 : 2 + dice.one_of(2);
-  TriangleMesh mesh = structured_mesh(cells, {block.is_coated ? 1.0 : 0.0}, Diagonal(dice.one_of(2)));
+  TriangleMesh mesh =
+      structured_mesh(cells, {block.is_coated ? 1.0 : 0.0}, Diagonal(dice.one_of(2)));
   deform(mesh, cells, block.is_coated, dice);
   const double top = mesh.vertices.col(1).maxCoeff(), right = mesh.vertices.col(0).maxCoeff();
   Coating& coating = block.coating;
@@ -268,13 +282,15 @@ Block random_block(unsigned seed) {
     return kind == 0 ? 0 : kind == 1 ? 0.5 - dice.decades(-8, -1) : dice.uniform(0, 0.49);
   };
   coating.body = material(young, poisson());
-  coating.layer = dice.one_of(2) == 0 ? Lame{stiffer * coating.body.lambda, stiffer * coating.body.mu}
-                                      : material(stiffer * young, poisson());
-  // not P1 at t = 0, whatever the moduli: its rows of B depend on each other there, and the rounding of those that count as
-  // equal moved u by up to 1.5e-6 in 4 of 5,000 blocks
+  coating.layer = dice.one_of(2) == 0
+                      ? Lame{stiffer * coating.body.lambda, stiffer * coating.body.mu}
+                      : material(stiffer * young, poisson());
+  // not P1 at t = 0, whatever the moduli: its rows of B depend on each other there, and the
+  // rounding of those that count as equal moved u by up to 1.5e-6 in 4 of 5,000 blocks
   coating.thickness = dice.one_of(5) == 0 && block.in_x->name() != "P1" ? 0 : dice.decades(-8, 0);
   block.epsilon = dice.one_of(5) == 0 ? 0 : dice.decades(-16, 0);
-  coating.prescribed_displacement = dice.one_of(3) == 0 ? 0 : dice.decades(-6, 2) * (dice.one_of(4) == 0 ? -1 : 1);
+  coating.prescribed_displacement =
+      dice.one_of(3) == 0 ? 0 : dice.decades(-6, 2) * (dice.one_of(4) == 0 ? -1 : 1);
   if (dice.one_of(3) == 0) coating.jump_weight = coating.body.mu;
   const double gap = dice.one_of(2) == 0 ? 0 : dice.decades(-6, 2) * (dice.one_of(4) == 0 ? -1 : 1);
   coating.gap = [gap](double) { return gap; };
@@ -288,9 +304,10 @@ Block random_block(unsigned seed) {
   return block;
 }
 
-// Random blocks, 150 or with ANTILOCK_THOROUGH 5,000. Of 5,000, none was wrong without a word, 10 % were refused (a sixth of
-// them since their stiffnesses are more than 1e16 apart), and 1.5 % carried a warning though they were right. With all
-// stiffnesses summed into A1 more than a hundred were wrong, by up to 4 %.
+// Random blocks, 150 or with ANTILOCK_THOROUGH 5,000. Of 5,000, none was wrong without a word, 10 %
+// were refused (a sixth of them since their stiffnesses are more than 1e16 apart), and 1.5 %
+// carried a warning though they were right. With all stiffnesses summed into A1 more than a hundred
+// were wrong, by up to 4 %.
 TEST(PlaneStrainFarApart, RandomBlocksAreRightOrSaySo) {
   const unsigned count = std::getenv("ANTILOCK_THOROUGH") != nullptr ? 5'000 : 150;
   std::map<SceneOutcome, int> outcomes =

@@ -11,26 +11,30 @@ namespace {
 
 using QuadMatrix = Eigen::SparseMatrix<Quad>;
 
-/// y += A x, y -= A x and y += A' x, with the matrix's own doubles and every operation in quadruple precision.
+/// y += A x, y -= A x and y += A' x, with the matrix's own doubles and every operation in quadruple
+/// precision.
 template <class Matrix>
 void add_product(QuadVector& y, const Matrix& a, const QuadVector& x) {
   for (Eigen::Index k = 0; k < a.outerSize(); ++k)
-    for (typename Matrix::InnerIterator it(a, k); it; ++it) y(it.row()) += Quad(it.value()) * x(it.col());
+    for (typename Matrix::InnerIterator it(a, k); it; ++it)
+      y(it.row()) += Quad(it.value()) * x(it.col());
 }
 template <class Matrix>
 void subtract_product(QuadVector& y, const Matrix& a, const QuadVector& x) {
   for (Eigen::Index k = 0; k < a.outerSize(); ++k)
-    for (typename Matrix::InnerIterator it(a, k); it; ++it) y(it.row()) -= Quad(it.value()) * x(it.col());
+    for (typename Matrix::InnerIterator it(a, k); it; ++it)
+      y(it.row()) -= Quad(it.value()) * x(it.col());
 }
 template <class Matrix>
 void add_transposed_product(QuadVector& y, const Matrix& a, const QuadVector& x) {
   for (Eigen::Index k = 0; k < a.outerSize(); ++k)
-    for (typename Matrix::InnerIterator it(a, k); it; ++it) y(it.col()) += Quad(it.value()) * x(it.row());
+    for (typename Matrix::InnerIterator it(a, k); it; ++it)
+      y(it.col()) += Quad(it.value()) * x(it.row());
 }
 
 /// r1 = L - A1 u - B' M p and r2 = compliance p - B u in quadruple precision.
-std::pair<QuadVector, QuadVector> quad_residual(const VariationalInequality& problem, const QuadVector& u,
-                                                const QuadVector& p) {
+std::pair<QuadVector, QuadVector> quad_residual(const VariationalInequality& problem,
+                                                const QuadVector& u, const QuadVector& p) {
   QuadVector r1 = problem.load.cast<Quad>(), r2 = Quad(problem.compliance) * p;
   const QuadVector minus_stress = -problem.m.cast<Quad>().cwiseProduct(p);
   subtract_product(r1, problem.a1, u);
@@ -39,11 +43,13 @@ std::pair<QuadVector, QuadVector> quad_residual(const VariationalInequality& pro
   return {r1, r2};
 }
 
-/// Iterates u += du, p += dp in quadruple precision with any approximate inverse of K = A1 + delta^-1 B' M B: the limit
-/// depends on the residual alone, which is formed in quadruple precision and in split form, and not on the start.
-QuadSolution refine(const VariationalInequality& problem, const std::vector<bool>& active, const QuadSolution& start,
-                    double delta, const std::vector<int>& unknown,
-                    const std::function<QuadVector(const QuadVector&)>& inverse, double tolerance, int most) {
+/// Iterates u += du, p += dp in quadruple precision with any approximate inverse of K = A1 +
+/// delta^-1 B' M B: the limit depends on the residual alone, which is formed in quadruple precision
+/// and in split form, and not on the start.
+QuadSolution refine(const VariationalInequality& problem, const std::vector<bool>& active,
+                    const QuadSolution& start, double delta, const std::vector<int>& unknown,
+                    const std::function<QuadVector(const QuadVector&)>& inverse, double tolerance,
+                    int most) {
   const VariationalInequality linear = equality_constrained(problem, active);
   QuadSolution s;
   s.active = active;
@@ -63,13 +69,15 @@ QuadSolution refine(const VariationalInequality& problem, const std::vector<bool
       free1(static_cast<Eigen::Index>(i)) = r1(unknown[i]);
     }
     const Quad u_scale = std::max<Quad>(largest(s.u), Quad(1e-300));
-    s.residual = static_cast<double>(std::max<Quad>(largest(free1) / largest(problem.load.cast<Quad>()),
-                                                    problem.b.rows() == 0 ? Quad(0) : largest(r2) / u_scale));
+    s.residual = static_cast<double>(
+        std::max<Quad>(largest(free1) / largest(problem.load.cast<Quad>()),
+                       problem.b.rows() == 0 ? Quad(0) : largest(r2) / u_scale));
     if ((s.refinements > 0 && s.residual < tolerance) || s.refinements == most) break;
     ++s.refinements;
     const QuadVector x = inverse(free);
     QuadVector du = QuadVector::Zero(problem.size());
-    for (std::size_t i = 0; i < unknown.size(); ++i) du(unknown[i]) = x(static_cast<Eigen::Index>(i));
+    for (std::size_t i = 0; i < unknown.size(); ++i)
+      du(unknown[i]) = x(static_cast<Eigen::Index>(i));
     s.u += du;
     QuadVector dp = -r2;
     add_product(dp, problem.b, du);
@@ -80,7 +88,8 @@ QuadSolution refine(const VariationalInequality& problem, const std::vector<bool
   for (std::size_t i = 0; i < problem.bounds.unknowns.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     if (active[i]) s.lambda(k) = -r1(problem.bounds.unknowns[i]);
-    min_gap = std::min<Quad>(min_gap, s.u(problem.bounds.unknowns[i]) - Quad(problem.bounds.lower(k)));
+    min_gap =
+        std::min<Quad>(min_gap, s.u(problem.bounds.unknowns[i]) - Quad(problem.bounds.lower(k)));
     min_pressure = std::min<Quad>(min_pressure, s.lambda(k));
   }
   s.min_gap = static_cast<double>(min_gap / std::max<Quad>(largest(s.u), Quad(1e-300)));
@@ -96,7 +105,8 @@ Quad largest(const QuadVector& v) {
   return most;
 }
 
-QuadSolution RefinedReference::operator()(const VariationalInequality& problem, const std::vector<bool>& active,
+QuadSolution RefinedReference::operator()(const VariationalInequality& problem,
+                                          const std::vector<bool>& active,
                                           const QuadSolution& start) {
   const VariationalInequality linear = equality_constrained(problem, active);
   const double delta = std::max(1e-8, problem.compliance);
@@ -109,7 +119,9 @@ QuadSolution RefinedReference::operator()(const VariationalInequality& problem, 
     const double scale = static_cast<double>(largest(r));
     if (scale == 0) return r;
     const Eigen::VectorXd rounded = (r / Quad(scale)).cast<double>();
-    return QuadVector(factor_->cholesky().backward(factor_->cholesky().forward(rounded)).cast<Quad>() * Quad(scale));
+    return QuadVector(
+        factor_->cholesky().backward(factor_->cholesky().forward(rounded)).cast<Quad>() *
+        Quad(scale));
   };
   return refine(problem, active, start, delta, factor_->ordering().dof, inverse, 1e-22, 200);
 }
@@ -126,7 +138,8 @@ QuadSolution quad_reference(const VariationalInequality& problem, const std::vec
       entries.emplace_back(ordering.position[i], ordering.position[j], value);
   };
   for (int j = 0; j < problem.a1.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) add(static_cast<int>(a.row()), j, a.value());
+    for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a)
+      add(static_cast<int>(a.row()), j, a.value());
   for (int row = 0; row < problem.b.rows(); ++row)
     for (RowMatrix::InnerIterator i(problem.b, row); i; ++i)
       for (RowMatrix::InnerIterator j(problem.b, row); j; ++j)
@@ -136,12 +149,12 @@ QuadSolution quad_reference(const VariationalInequality& problem, const std::vec
   k.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<QuadMatrix> factor(k);
   return refine(
-      problem, active, start, delta, ordering.dof, [&](const QuadVector& r) { return QuadVector(factor.solve(r)); },
-      1e-26, 60);
+      problem, active, start, delta, ordering.dof,
+      [&](const QuadVector& r) { return QuadVector(factor.solve(r)); }, 1e-26, 60);
 }
 
-QuadSolution settle(const VariationalInequality& problem, std::vector<bool> active, const Reference& reference,
-                    const QuadSolution& neighbour) {
+QuadSolution settle(const VariationalInequality& problem, std::vector<bool> active,
+                    const Reference& reference, const QuadSolution& neighbour) {
   for (int sets = 1;; ++sets) {
     const bool of_neighbour = active == neighbour.active;
     QuadSolution s = reference(problem, active, of_neighbour ? neighbour : QuadSolution());
@@ -155,8 +168,9 @@ QuadSolution settle(const VariationalInequality& problem, std::vector<bool> acti
                pressure_slack = Quad(1e-18) * largest(problem.load.cast<Quad>());
     for (std::size_t i = 0; i < active.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      const bool wrong = active[i] ? s.lambda(k) < -pressure_slack
-                                   : s.u(problem.bounds.unknowns[i]) - Quad(problem.bounds.lower(k)) < -gap_slack;
+      const bool wrong =
+          active[i] ? s.lambda(k) < -pressure_slack
+                    : s.u(problem.bounds.unknowns[i]) - Quad(problem.bounds.lower(k)) < -gap_slack;
       if (wrong) active[i] = !active[i];
     }
   }

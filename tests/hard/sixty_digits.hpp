@@ -1,5 +1,6 @@
 #pragma once
-// Scenes of random numbers that are many decades apart, and the parts of a second assembly with 60 digits.
+// Scenes of random numbers that are many decades apart, and the parts of a second assembly with 60
+// digits.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +18,8 @@
 
 namespace antilock::hard {
 
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>, boost::multiprecision::et_off>;
+using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>,
+                                           boost::multiprecision::et_off>;
 using RealVector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
@@ -52,7 +54,8 @@ inline RealTriangle real_triangle(const TriangleMesh& mesh, int t) {
   Eigen::Matrix<Real, 3, 2> x;
   for (int i = 0; i < 3; ++i) x.row(i) = mesh.vertices.row(mesh.triangles(t, i)).cast<Real>();
   RealTriangle triangle;
-  triangle.twice_area = (x(1, 0) - x(0, 0)) * (x(2, 1) - x(0, 1)) - (x(2, 0) - x(0, 0)) * (x(1, 1) - x(0, 1));
+  triangle.twice_area =
+      (x(1, 0) - x(0, 0)) * (x(2, 1) - x(0, 1)) - (x(2, 0) - x(0, 0)) * (x(1, 1) - x(0, 1));
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, l = (i + 2) % 3;
     triangle.gradient(i, 0) = (x(j, 1) - x(l, 1)) / triangle.twice_area;
@@ -69,8 +72,8 @@ struct Assessment {
   std::string text;
 };
 
-/// u of `s` against the exact one, empty where that is not known. A warning is right where its number is not below the
-/// error.
+/// u of `s` against the exact one, empty where that is not known. A warning is right where its
+/// number is not below the error.
 inline Assessment compare_with_exact(const Solution& s, const RealVector& exact) {
   if (exact.size() == 0) return {SceneOutcome::unknown, 0, "no set of contact settles"};
   Real off = 0, size = 0;
@@ -79,14 +82,16 @@ inline Assessment compare_with_exact(const Solution& s, const RealVector& exact)
     size = std::max<Real>(size, abs(exact(i)));
   }
   const auto error = static_cast<double>(size > 0 ? Real(off / size) : off);
-  const std::string text = fmt::format("{}, claimed {:.1e}, warning \"{}\"", s.solver, s.error, s.warning);
-  if (error <= 1e-6) return {s.warning.empty() ? SceneOutcome::right : SceneOutcome::warned, error, text};
+  const std::string text =
+      fmt::format("{}, claimed {:.1e}, warning \"{}\"", s.solver, s.error, s.warning);
+  if (error <= 1e-6)
+    return {s.warning.empty() ? SceneOutcome::right : SceneOutcome::warned, error, text};
   const bool said = !s.warning.empty() && std::max(s.error, worst_violation(s.kkt)) >= error;
   return {said ? SceneOutcome::warned : SceneOutcome::quietly_wrong, error, text};
 }
 
-/// How often each outcome comes among `count` random cases, none of which may be wrong without a word.
-/// `assess_case(seed)` solves one of them.
+/// How often each outcome comes among `count` random cases, none of which may be wrong without a
+/// word. `assess_case(seed)` solves one of them.
 template <class AssessCase>
 std::map<SceneOutcome, int> count_outcomes(unsigned count, const AssessCase& assess_case) {
   std::map<SceneOutcome, int> outcomes;
@@ -111,7 +116,8 @@ class Dice {
   std::mt19937 engine_;
 };
 
-/// The square of the mesh stretched, its inner vertices moved: no row of an element matrix sums to 0 by luck.
+/// The square of the mesh stretched, its inner vertices moved: no row of an element matrix sums to
+/// 0 by luck.
 inline void deform(TriangleMesh& mesh, int cells, bool layer, Dice& dice) {
   const double stretch = dice.uniform(0.3, 3);
   for (int v = 0; v < mesh.vertex_count(); ++v) {

@@ -1,5 +1,6 @@
-// Scenes whose numbers are many decades apart, against the same scene assembled and solved with 60 digits. Sources of the
-// first question, two bodies of extreme stiffness one of which hangs from the other: MYSTRAN #146 and #141, K2Engineering
+// Scenes whose numbers are many decades apart, against the same scene assembled and solved with 60
+// digits. Sources of the first question, two bodies of extreme stiffness one of which hangs from
+// the other: MYSTRAN #146 and #141, K2Engineering
 // #7, KoFEM #192.
 #include <cstdlib>
 
@@ -25,8 +26,8 @@ struct Question {
   Scene scene() const {
     std::optional<UnilateralContact> contact;
     if (gap) contact = UnilateralContact{[g = *gap](double) { return g; }, {}, {}};
-    return Scene({load, [this](double x, double y) { return at(x, y); }}, layer ? Layer(*layer) : Layer(NoLayer{}),
-                 contact, edges);
+    return Scene({load, [this](double x, double y) { return at(x, y); }},
+                 layer ? Layer(*layer) : Layer(NoLayer{}), contact, edges);
   }
 
  private:
@@ -79,15 +80,18 @@ RealMatrix assembled(const Question& q, const Space& space) {
         Eigen::Matrix<Real, 3, 1> l = Eigen::Matrix<Real, 3, 1>::Zero();
         l((i + 1) % 3) = 1 - Real(at(g));
         l((i + 2) % 3) = Real(at(g));
-        add(t, basis(name, l), Real(weights(g)) * Real(mesh.edge_length(e)) * Real(q.springs[group]));
+        add(t, basis(name, l),
+            Real(weights(g)) * Real(mesh.edge_length(e)) * Real(q.springs[group]));
       }
     }
   }
   return k;
 }
 
-/// u of the scene with 60 digits: sets of contact are exchanged from `active` on. Empty where they do not settle.
-RealVector exact_solution(const VariationalInequality& problem, const RealMatrix& k, std::vector<bool> active) {
+/// u of the scene with 60 digits: sets of contact are exchanged from `active` on. Empty where they
+/// do not settle.
+RealVector exact_solution(const VariationalInequality& problem, const RealMatrix& k,
+                          std::vector<bool> active) {
   active.resize(problem.bounds.unknowns.size(), false);
   for (int sets = 0; sets < 200; ++sets) {
     RealVector u = RealVector::Zero(problem.size());
@@ -122,7 +126,8 @@ RealVector exact_solution(const VariationalInequality& problem, const RealMatrix
     for (std::size_t i = 0; i < active.size(); ++i) {
       const int c = problem.bounds.unknowns[i];
       const bool wrong = active[i] ? force(c) < -Real("1e-25") * size
-                                   : u(c) - Real(problem.bounds.lower(Eigen::Index(i))) < -Real("1e-25") * largest_u;
+                                   : u(c) - Real(problem.bounds.lower(Eigen::Index(i))) <
+                                         -Real("1e-25") * largest_u;
       if (!wrong || (sets > 60 && !settled)) continue;  // in the end one by one
       settled = false;
       active[i] = !active[i];
@@ -145,7 +150,8 @@ Assessment assess(const Question& q) {
   return compare_with_exact(s, exact_solution(problem, assembled(q, space), s.active));
 }
 
-/// Top, right and left, each with a condition of its own; the side `holds` is given a displacement or a spring.
+/// Top, right and left, each with a condition of its own; the side `holds` is given a displacement
+/// or a spring.
 void add_sides(Question& q, Dice& dice) {
   using Kind = BoundaryCondition::Kind;
   const int holds = dice.one_of(3);
@@ -171,8 +177,9 @@ void add_sides(Question& q, Dice& dice) {
   }
 }
 
-/// Scene number `seed` of an endless list: P1, CR or P2; a layer in a third of them; each side given, free, pulled or on
-/// springs; a stiff half, a stiff inclusion, or stiff triangles here and there; with contact and without.
+/// Scene number `seed` of an endless list: P1, CR or P2; a layer in a third of them; each side
+/// given, free, pulled or on springs; a stiff half, a stiff inclusion, or stiff triangles here and
+/// there; with contact and without.
 Question random_question(unsigned seed) {
   Dice dice(seed);
   Question q;
@@ -189,26 +196,31 @@ Question random_question(unsigned seed) {
   const double top = mesh.vertices.col(1).maxCoeff(), right = mesh.vertices.col(0).maxCoeff();
   q.mesh = test::retagged(std::move(mesh), [&](double x, double y) {
     const int side = y > top * (1 - 1e-9) ? 0 : x > right / 2 ? 1 : 2;
-    return q.edges[side].kind == BoundaryCondition::Kind::displacement ? dirichlet_group(side) : natural_group(side);
+    return q.edges[side].kind == BoundaryCondition::Kind::displacement ? dirichlet_group(side)
+                                                                       : natural_group(side);
   });
   const int where = dice.one_of(3);
   const double hard = dice.decades(0, 16), soft = dice.one_of(4) == 0 ? dice.decades(-6, 0) : 1;
-  const double other = dice.one_of(3) == 0 ? dice.decades(0, 16) : hard, middle = top * dice.uniform(0.3, 0.7);
+  const double other = dice.one_of(3) == 0 ? dice.decades(0, 16) : hard,
+               middle = top * dice.uniform(0.3, 0.7);
   for (int t = 0; t < q.mesh.triangle_count(); ++t) {
     const Eigen::Vector2d c = point_in(q.mesh, t, Eigen::Vector3d::Constant(1.0 / 3));
     const double far = std::hypot(c(0) / right - 0.5, c(1) / top - 0.5);
-    const bool in = where == 0 ? c(1) < middle : (where == 1 && far < 0.35) || (where == 2 && dice.one_of(2) == 0);
+    const bool in = where == 0 ? c(1) < middle
+                               : (where == 1 && far < 0.35) || (where == 2 && dice.one_of(2) == 0);
     q.stiffness.push_back(in ? (c(0) < right / 2 ? hard : other) : soft);
   }
-  if (dice.one_of(2) == 0) q.gap = dice.one_of(3) == 0 ? 0 : dice.decades(-6, 2) * (dice.one_of(4) == 0 ? -1 : 1);
+  if (dice.one_of(2) == 0)
+    q.gap = dice.one_of(3) == 0 ? 0 : dice.decades(-6, 2) * (dice.one_of(4) == 0 ? -1 : 1);
   const double size = dice.one_of(4) == 0 ? dice.decades(-9, 9) : 1, slope = dice.uniform(-2, 2),
                value = dice.uniform(-2, 1);
   q.load = [=](double x, double y) { return size * (value + slope * (x - y)); };
   return q;
 }
 
-// Random scenes, 300 or with ANTILOCK_THOROUGH 20,000. Of 8,000, none was wrong without a word, 21 % were refused (nearly
-// all since their stiffnesses are more than 1e16 apart), and 4 carried a warning though they were right.
+// Random scenes, 300 or with ANTILOCK_THOROUGH 20,000. Of 8,000, none was wrong without a word, 21
+// % were refused (nearly all since their stiffnesses are more than 1e16 apart), and 4 carried a
+// warning though they were right.
 TEST(StiffnessFarApart, RandomScenesAreRightOrSaySo) {
   const unsigned count = std::getenv("ANTILOCK_THOROUGH") != nullptr ? 20'000 : 300;
   std::map<SceneOutcome, int> outcomes =
@@ -217,8 +229,9 @@ TEST(StiffnessFarApart, RandomScenesAreRightOrSaySo) {
   EXPECT_LE(outcomes[SceneOutcome::warned] + outcomes[SceneOutcome::unknown], 0.01 * count);
 }
 
-/// A scene on the unit square whose lower half is k times as stiff and hangs from the upper one, fixed at its top, under
-/// f = -1. u depends on y alone: k u' = y below and u' = y above, so u(1/2) = (1/4 - 1) / 2 whatever k is.
+/// A scene on the unit square whose lower half is k times as stiff and hangs from the upper one,
+/// fixed at its top, under f = -1. u depends on y alone: k u' = y below and u' = y above, so
+/// u(1/2) = (1/4 - 1) / 2 whatever k is.
 Solution hung(const Space& space, double k, bool contact) {
   const Field stiffness = [k](double, double y) { return y < 0.5 ? k : 1; };
   const auto minus_one = [](double, double) { return -1.0; };
@@ -227,11 +240,13 @@ Solution hung(const Space& space, double k, bool contact) {
   return active_set(assemble(Scene({minus_one, stiffness}, NoLayer{}, far, {{"sides"}}), space));
 }
 
-// 4e-16 of k / 1 was lost at each of the stiff unknowns: u(1/2) was -0.4216 at k = 1e14. The bound: P1 and CR have the
-// quadratic u of the upper half only to h^2, as at k = 1e4, where nothing is lost.
+// 4e-16 of k / 1 was lost at each of the stiff unknowns: u(1/2) was -0.4216 at k = 1e14. The bound:
+// P1 and CR have the quadratic u of the upper half only to h^2, as at k = 1e4, where nothing is
+// lost.
 TEST(StiffnessFarApart, AStiffHalfHangsFromASoftOne) {
-  const TriangleMesh mesh = test::retagged(
-      structured_mesh(6, {0}), [](double, double y) { return y > 1 - 1e-9 ? EdgeTag::clamped : natural_group(0); });
+  const TriangleMesh mesh = test::retagged(structured_mesh(6, {0}), [](double, double y) {
+    return y > 1 - 1e-9 ? EdgeTag::clamped : natural_group(0);
+  });
   for (const Element* element : {&p1(), &crouzeix_raviart(), &p2()})
     for (const bool contact : {false, true}) {
       const Space space(mesh, *element);
@@ -240,7 +255,8 @@ TEST(StiffnessFarApart, AStiffHalfHangsFromASoftOne) {
         const Solution s = hung(space, k, contact);
         // the stiff half bends by 1 / k as much as the soft one
         EXPECT_LE(test::relative_difference(s.u, u), 1 / std::min(k, 1e4)) << element->name() << k;
-        EXPECT_LE(test::relative_difference(s.u, stiff), 1 / std::min(k, 1e9)) << element->name() << k;
+        EXPECT_LE(test::relative_difference(s.u, stiff), 1 / std::min(k, 1e9))
+            << element->name() << k;
         EXPECT_EQ(s.warning, "") << element->name() << k;
       }
       test::expect_refused([&] { hung(space, 1e17, contact); }, "at most 1e16 times the softest");
@@ -257,7 +273,8 @@ Coating coated(double s) {
 }
 
 /// The solution with the coating's own penalty; empty where it is refused.
-std::optional<Solution> solved(const Coating& coating, const Space& space, const VariationalInequality& problem) {
+std::optional<Solution> solved(const Coating& coating, const Space& space,
+                               const VariationalInequality& problem) {
   ActiveSetOptions options;
   options.penalty = penalty(coating, {space, space});
   try {
@@ -269,8 +286,9 @@ std::optional<Solution> solved(const Coating& coating, const Space& space, const
 
 const std::array<double, 9> coatings{1e-15, 1e-12, 1e-6, 1e-3, 1, 1e3, 1e6, 1e10, 1e15};
 
-// The top slides, pushed down by 0.1, on a flat obstacle. Nothing moves in x, and in y body and coating are springs in a
-// row, 2 mu and 2 mu s / t^2: u is affine in each. The bound is that of the promise.
+// The top slides, pushed down by 0.1, on a flat obstacle. Nothing moves in x, and in y body and
+// coating are springs in a row, 2 mu and 2 mu s / t^2: u is affine in each. The bound is that of
+// the promise.
 TEST(StiffnessFarApart, ACoatedBodyIsPressed) {
   const TriangleMesh mesh = with_free_sides(structured_mesh(6));
   for (const Element* element : {&p1(), &crouzeix_raviart(), &p2()}) {
@@ -295,8 +313,9 @@ TEST(StiffnessFarApart, ACoatedBodyIsPressed) {
   }
 }
 
-// Held at its top where u = (0.05, -0.1), without a load: all of it moves so. No force is at work but round-off, beside
-// which the report is merciless: refusals are right here, and a wrong answer is not.
+// Held at its top where u = (0.05, -0.1), without a load: all of it moves so. No force is at work
+// but round-off, beside which the report is merciless: refusals are right here, and a wrong answer
+// is not.
 TEST(StiffnessFarApart, ACoatedBodyMovesAsAWhole) {
   const TriangleMesh mesh = with_free_sides(structured_mesh(6));
   for (const Element* element : {&p1(), &crouzeix_raviart(), &p2()}) {
@@ -306,10 +325,12 @@ TEST(StiffnessFarApart, ACoatedBodyMovesAsAWhole) {
       coating.gap = [](double) { return 10.0; };
       VariationalInequality problem = assemble(coating, {space, space});
       Eigen::VectorXd exact(problem.size());
-      exact << Eigen::VectorXd::Constant(space.size(), 0.05), Eigen::VectorXd::Constant(space.size(), -0.1);
+      exact << Eigen::VectorXd::Constant(space.size(), 0.05),
+          Eigen::VectorXd::Constant(space.size(), -0.1);
       problem.dirichlet_values = exact(problem.dirichlet_dofs);
       const auto found = solved(coating, space, problem);
-      EXPECT_TRUE(!found || test::relative_difference(found->u, exact) <= 1e-6 || !found->warning.empty())
+      EXPECT_TRUE(!found || test::relative_difference(found->u, exact) <= 1e-6 ||
+                  !found->warning.empty())
           << element->name() << s;
     }
   }

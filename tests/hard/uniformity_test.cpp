@@ -1,5 +1,5 @@
-// Uniform in epsilon, down to and including 0: the solver against the same discrete problem in quadruple precision, and
-// the discrete answer against the truth.
+// Uniform in epsilon, down to and including 0: the solver against the same discrete problem in
+// quadruple precision, and the discrete answer against the truth.
 #include <Eigen/SPQRSupport>
 #include <Eigen/UmfPackSupport>
 #include <cstdlib>
@@ -13,7 +13,8 @@
 
 namespace antilock::hard::uniformity_test {
 
-constexpr std::array every_epsilon{1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-16, 1e-20, 0.0};
+constexpr std::array every_epsilon{1.0,  1e-1,  1e-2,  1e-3,  1e-4,  1e-6,
+                                   1e-8, 1e-10, 1e-12, 1e-16, 1e-20, 0.0};
 constexpr std::array few_epsilons{1e-6, 0.0};  // 1/h = 256, where a solve takes long
 
 struct Case {
@@ -30,11 +31,13 @@ std::string name(const testing::TestParamInfo<Case>& info) {
 class Uniformity : public testing::TestWithParam<Case> {
  protected:
   Uniformity()
-      : space_(GetParam().structured ? structured_mesh(GetParam().cells) : unstructured_mesh(GetParam().cells),
+      : space_(GetParam().structured ? structured_mesh(GetParam().cells)
+                                     : unstructured_mesh(GetParam().cells),
                element(GetParam().element)) {}
   std::vector<double> epsilons() const {
     if (GetParam().cells > 64 && std::getenv("ANTILOCK_THOROUGH") == nullptr) {
-      // where P1 has locked, every contact set but one is off by round-off: the reference searches for minutes
+      // where P1 has locked, every contact set but one is off by round-off: the reference searches
+      // for minutes
       if (GetParam().locks()) return {1e-2};
       return {few_epsilons.begin(), few_epsilons.end()};
     }
@@ -43,9 +46,10 @@ class Uniformity : public testing::TestWithParam<Case> {
   Space space_;
 };
 
-// 1e-9 is what the solver promises (its tolerance is 1e-10, estimated). The quadruple solution of the contact set found
-// is the solution of the inequality where its own gaps and pressures have the right sign; at a locked epsilon the gap
-// is compliance itself, and no double precision solve can tell the contact set: there the set is found again.
+// 1e-9 is what the solver promises (its tolerance is 1e-10, estimated). The quadruple solution of
+// the contact set found is the solution of the inequality where its own gaps and pressures have the
+// right sign; at a locked epsilon the gap is compliance itself, and no double precision solve can
+// tell the contact set: there the set is found again.
 TEST_P(Uniformity, AlgebraicErrorBelow1e9AtEveryEpsilon) {
   RefinedReference reference;
   QuadSolution exact;  // each one is the neighbour of the next
@@ -68,10 +72,12 @@ TEST_P(Uniformity, AlgebraicErrorBelow1e9AtEveryEpsilon) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Paper, Uniformity,
-                         testing::Values(Case{"P1", true, 16}, Case{"CR", true, 16}, Case{"P1", false, 16},
-                                         Case{"CR", false, 16}, Case{"P1", true, 64}, Case{"CR", true, 64},
-                                         Case{"P1", false, 64}, Case{"CR", false, 64}, Case{"P1", true, 256},
-                                         Case{"CR", true, 256}, Case{"P1", false, 256}, Case{"CR", false, 256}),
+                         testing::Values(Case{"P1", true, 16}, Case{"CR", true, 16},
+                                         Case{"P1", false, 16}, Case{"CR", false, 16},
+                                         Case{"P1", true, 64}, Case{"CR", true, 64},
+                                         Case{"P1", false, 64}, Case{"CR", false, 64},
+                                         Case{"P1", true, 256}, Case{"CR", true, 256},
+                                         Case{"P1", false, 256}, Case{"CR", false, 256}),
                          name);
 
 using SmallUniformity = Uniformity;
@@ -91,13 +97,14 @@ TEST_P(SmallUniformity, AgreesWithAFactorisationInQuadruplePrecision) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Paper, SmallUniformity,
-                         testing::Values(Case{"P1", true, 16}, Case{"CR", true, 16}, Case{"P1", false, 16},
-                                         Case{"CR", false, 16}),
+                         testing::Values(Case{"P1", true, 16}, Case{"CR", true, 16},
+                                         Case{"P1", false, 16}, Case{"CR", false, 16}),
                          name);
 
-/// u with the contact set held, from the saddle-point form [A1 B'M; MB -compliance M] by UMFPACK: another formulation,
-/// another library, no penalty and no correction.
-Eigen::VectorXd saddle_point(const VariationalInequality& problem, const std::vector<bool>& active) {
+/// u with the contact set held, from the saddle-point form [A1 B'M; MB -compliance M] by UMFPACK:
+/// another formulation, another library, no penalty and no correction.
+Eigen::VectorXd saddle_point(const VariationalInequality& problem,
+                             const std::vector<bool>& active) {
   const VariationalInequality linear = equality_constrained(problem, active);
   const DofOrdering ordering(linear);
   const int size = static_cast<int>(ordering.dof.size()), rows = static_cast<int>(problem.b.rows());
@@ -126,7 +133,8 @@ Eigen::VectorXd saddle_point(const VariationalInequality& problem, const std::ve
   return u;
 }
 
-// The rows of B are independent for Crouzeix-Raviart alone, so the saddle point is regular at epsilon = 0 there.
+// The rows of B are independent for Crouzeix-Raviart alone, so the saddle point is regular at
+// epsilon = 0 there.
 TEST(Formulations, SaddlePointByUmfpackAgreesForCrouzeixRaviart) {
   for (const bool structured : {true, false}) {
     const Space space(structured ? structured_mesh(64) : unstructured_mesh(64), crouzeix_raviart());
@@ -134,7 +142,8 @@ TEST(Formulations, SaddlePointByUmfpackAgreesForCrouzeixRaviart) {
       const VariationalInequality problem = test::stiff_problem(space, epsilon);
       const Solution solution = active_set(problem);
       const Eigen::VectorXd other = saddle_point(problem, solution.active);
-      EXPECT_LT((solution.u - other).lpNorm<Eigen::Infinity>() / other.lpNorm<Eigen::Infinity>(), 1e-9)
+      EXPECT_LT((solution.u - other).lpNorm<Eigen::Infinity>() / other.lpNorm<Eigen::Infinity>(),
+                1e-9)
           << epsilon << (structured ? " structured" : " unstructured");
     }
   }
@@ -146,7 +155,8 @@ Eigen::MatrixXd kernel_basis(const VariationalInequality& linear, const DofOrder
   std::vector<Eigen::Triplet<double>> entries;
   for (int r = 0; r < linear.b.rows(); ++r)
     for (RowMatrix::InnerIterator b(linear.b, r); b; ++b)
-      if (const int place = ordering.position[b.col()]; place >= 0) entries.emplace_back(place, r, b.value());
+      if (const int place = ordering.position[b.col()]; place >= 0)
+        entries.emplace_back(place, r, b.value());
   SparseMatrix b_transposed(size, linear.b.rows());
   b_transposed.setFromTriplets(entries.begin(), entries.end());
   Eigen::SPQR<SparseMatrix> qr;
@@ -158,10 +168,12 @@ Eigen::MatrixXd kernel_basis(const VariationalInequality& linear, const DofOrder
   return qr.matrixQ() * last;  // the columns of Q beyond the rank are orthogonal to the range of B'
 }
 
-// (7): the inequality on G_h, the kernel of a0, without any penalty. Projected on a basis of G_h it is a small dense
-// complementarity problem, solved here with the contact set of the solver and checked for both signs.
+// (7): the inequality on G_h, the kernel of a0, without any penalty. Projected on a basis of G_h it
+// is a small dense complementarity problem, solved here with the contact set of the solver and
+// checked for both signs.
 TEST(Formulations, EpsilonZeroIsTheProblemOnTheKernelOfA0) {
-  for (const Case c : {Case{"P1", true, 16}, Case{"CR", true, 16}, Case{"CR", false, 16}, Case{"P1", false, 16}}) {
+  for (const Case c :
+       {Case{"P1", true, 16}, Case{"CR", true, 16}, Case{"CR", false, 16}, Case{"P1", false, 16}}) {
     SCOPED_TRACE(std::string(c.element) + (c.structured ? " structured" : " unstructured"));
     const TriangleMesh mesh = c.structured ? structured_mesh(c.cells) : unstructured_mesh(c.cells);
     const Space space(mesh, element(c.element));
@@ -183,8 +195,9 @@ TEST(Formulations, EpsilonZeroIsTheProblemOnTheKernelOfA0) {
   }
 }
 
-// The paper's promise in numbers: below 1e-3 the error no longer depends on epsilon, for elements that do not lock.
-// The truth table carries 1e-7 or better, the errors are 8e-5 and more: within 1 % of each other.
+// The paper's promise in numbers: below 1e-3 the error no longer depends on epsilon, for elements
+// that do not lock. The truth table carries 1e-7 or better, the errors are 8e-5 and more: within 1
+// % of each other.
 TEST(UniformError, IsFlatInEpsilonWhereNothingLocks) {
   const TriangleMesh structured = structured_mesh(32), unstructured = unstructured_mesh(32);
   struct Row {
@@ -200,8 +213,9 @@ TEST(UniformError, IsFlatInEpsilonWhereNothingLocks) {
       const Solution solution = active_set(test::stiff_problem(space, epsilon));
       double error = 0;
       for (int i = 0; i < space.size(); ++i)
-        error = std::max(error, std::abs(solution.u(i) - exact_solution.value(space.dof_coordinates()(i, 0),
-                                                                              space.dof_coordinates()(i, 1))));
+        error = std::max(
+            error, std::abs(solution.u(i) - exact_solution.value(space.dof_coordinates()(i, 0),
+                                                                 space.dof_coordinates()(i, 1))));
       if (epsilon == 0) row.limit = error;
       EXPECT_NEAR(error / row.limit, 1, 0.01) << row.element << " at epsilon = " << epsilon;
       EXPECT_LT(error, 2e-3) << "an absolute cap: half the locked error would be 2e-2";

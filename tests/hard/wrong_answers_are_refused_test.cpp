@@ -25,14 +25,17 @@ TEST_P(WrongAnswers, TheRightAnswerIsTrustedWithoutAWarning) {
   EXPECT_LT(worst_violation(solution_.kkt), 1e-10);
 }
 
-// Each fault is one that a solver can commit; each must be seen by the number that stands for its condition.
+// Each fault is one that a solver can commit; each must be seen by the number that stands for its
+// condition.
 TEST_P(WrongAnswers, EveryKindOfWrongAnswerIsRefused) {
   ASSERT_GE(first(true), 0);
   ASSERT_GE(first(false), 0);
-  const double u_scale = solution_.u.lpNorm<Eigen::Infinity>(), f_scale = problem_.load.lpNorm<Eigen::Infinity>();
+  const double u_scale = solution_.u.lpNorm<Eigen::Infinity>(),
+               f_scale = problem_.load.lpNorm<Eigen::Infinity>();
   constexpr double inf = test::infinity, nan = test::nan;
   const std::vector<std::pair<std::string, std::function<void(Solution&)>>> faults{
-      {"one unknown in the body moved", [&](Solution& s) { s.u(space_.size() - 1) += 1e-2 * u_scale; }},
+      {"one unknown in the body moved",
+       [&](Solution& s) { s.u(space_.size() - 1) += 1e-2 * u_scale; }},
       {"one unknown in contact moved",
        [&](Solution& s) { s.u(problem_.bounds.unknowns[first(false)]) += 1e-3 * u_scale; }},
       {"every unknown scaled", [](Solution& s) { s.u *= 1 + 1e-4; }},
@@ -50,7 +53,8 @@ TEST_P(WrongAnswers, EveryKindOfWrongAnswerIsRefused) {
       {"contact forces forgotten", [](Solution& s) { s.lambda.setZero(); }},
       {"a contact that pulls", [&](Solution& s) { s.lambda(first(true)) = -0.1 * f_scale; }},
       {"a force across a gap", [&](Solution& s) { s.lambda(first(false)) = 0.1 * f_scale; }},
-      {"through the obstacle", [&](Solution& s) { s.u(problem_.bounds.unknowns[first(true)]) = -0.01 * u_scale; }},
+      {"through the obstacle",
+       [&](Solution& s) { s.u(problem_.bounds.unknowns[first(true)]) = -0.01 * u_scale; }},
       {"a clamp that slips", [&](Solution& s) { s.u(problem_.dirichlet_dofs[3]) = 1e-12; }},
       {"not a number in u", [&](Solution& s) { s.u(7) = nan; }},
       {"not a number in p", [&](Solution& s) { s.p(7) = nan; }},
@@ -79,12 +83,14 @@ TEST_P(WrongAnswers, WarnsBetweenTheTwoLevelsAndRefusesAbove) {
   EXPECT_TRUE(same.warning.empty());
   slightly.u *= 1.1;
   const auto refusal = thrown<NotConverged>([&] { check_kkt(problem_, slightly); });
-  EXPECT_NE(std::string(refusal.what()).find("active set: answer refused"), std::string::npos) << refusal.what();
+  EXPECT_NE(std::string(refusal.what()).find("active set: answer refused"), std::string::npos)
+      << refusal.what();
   EXPECT_NEAR(refusal.reached, worst_violation(kkt_report(problem_, slightly)), 1e-15);
   EXPECT_GT(refusal.reached, 1e-6);
 }
 
-// The terms of A1 u are h^-2 times larger than the forces they balance: an error must not hide behind them.
+// The terms of A1 u are h^-2 times larger than the forces they balance: an error must not hide
+// behind them.
 TEST_P(WrongAnswers, AWrongAnswerIsRefusedOnAFineMeshToo) {
   const Space space(structured_mesh(128), p1());
   const VariationalInequality problem = assemble(test::stiff_scene(GetParam()), space);
@@ -94,7 +100,8 @@ TEST_P(WrongAnswers, AWrongAnswerIsRefusedOnAFineMeshToo) {
   EXPECT_THROW(check_kkt(problem, wrong), NotConverged);
 }
 
-// Scale-free: load and answer multiplied by a power of two give the same report bit for bit, right or wrong.
+// Scale-free: load and answer multiplied by a power of two give the same report bit for bit, right
+// or wrong.
 TEST_P(WrongAnswers, TheReportDoesNotSeeTheScaleOfTheLoad) {
   Solution wrong = solution_;
   wrong.u *= 1.0001;
@@ -107,7 +114,8 @@ TEST_P(WrongAnswers, TheReportDoesNotSeeTheScaleOfTheLoad) {
       problem.load *= factor;
       problem.bounds.lower *= factor;
       Solution scaled = answer;
-      scaled.u *= factor, scaled.p *= factor, scaled.lambda *= factor, scaled.penalised_max_u *= factor;
+      scaled.u *= factor, scaled.p *= factor, scaled.lambda *= factor,
+          scaled.penalised_max_u *= factor;
       const Kkt other = kkt_report(problem, scaled);
       EXPECT_EQ(kkt.residual, other.residual);
       EXPECT_EQ(kkt.min_gap, other.min_gap);
@@ -126,13 +134,15 @@ SparseMatrix springs(const Eigen::VectorXd& stiffness) {
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index i = 0; i + 1 < n; ++i)
     for (const Eigen::Index a : {i, i + 1})
-      for (const Eigen::Index b : {i, i + 1}) entries.emplace_back(a, b, a == b ? stiffness(i) : -stiffness(i));
+      for (const Eigen::Index b : {i, i + 1})
+        entries.emplace_back(a, b, a == b ? stiffness(i) : -stiffness(i));
   SparseMatrix a1(n, n);
   a1.setFromTriplets(entries.begin(), entries.end());
   return a1;
 }
 
-// A pivot of a singular matrix is round-off of either sign: a positive one does not make it regular.
+// A pivot of a singular matrix is round-off of either sign: a positive one does not make it
+// regular.
 TEST(Singular, AStructureThatNothingHoldsIsRefusedWhateverTheRoundOff) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     std::srand(seed);
@@ -144,7 +154,8 @@ TEST(Singular, AStructureThatNothingHoldsIsRefusedWhateverTheRoundOff) {
   }
 }
 
-/// Six unknowns in a row, the first held at 0, the second held at 0 by B and pressed to 0.1: infeasible at compliance
+/// Six unknowns in a row, the first held at 0, the second held at 0 by B and pressed to 0.1:
+/// infeasible at compliance
 /// 0. `far` is the bound of another, `unit` the unit in which a second row of B is written.
 VariationalInequality impossible(double far, double unit) {
   VariationalInequality problem;

@@ -15,9 +15,11 @@
 
 namespace antilock::test::accuracy_test {
 
-std::string scene(const std::string& method, const std::string& layer = "epsilon = 1e-6", int cells = 8) {
+std::string scene(const std::string& method, const std::string& layer = "epsilon = 1e-6",
+                  int cells = 8) {
   return fmt::format(
-      "[load]\nf = \"10*sin(2*pi*x)\"\n[layer]\n{}\n[contact]\n[mesh]\nkind = \"unstructured\"\ncells = {}\n"
+      "[load]\nf = \"10*sin(2*pi*x)\"\n[layer]\n{}\n[contact]\n[mesh]\nkind = "
+      "\"unstructured\"\ncells = {}\n"
       "[method]\n{}\n",
       layer, cells, method);
 }
@@ -25,7 +27,8 @@ std::string scene(const std::string& method, const std::string& layer = "epsilon
 TEST(Accuracy, OfASceneIsProvedInItsSummary) {
   for (const double epsilon : {1.0, 1e-6, 0.0})
     for (const std::string of : {"displacement", "stress"}) {
-      const SceneRun run(scene(fmt::format("accuracy = 0.1\nof = \"{}\"", of), fmt::format("epsilon = {}", epsilon)));
+      const SceneRun run(scene(fmt::format("accuracy = 0.1\nof = \"{}\"", of),
+                               fmt::format("epsilon = {}", epsilon)));
       const auto summary = run.summary();
       const auto& proof = summary["certificate"];
       EXPECT_EQ(proof["asked"], 0.1);
@@ -53,15 +56,17 @@ TEST(Accuracy, GoesWithABodyFromAFile) {
   const TemporaryFolder folder;
   const std::string path = (folder / "l.msh").string();
   write_msh(path, extruded(l_shape(8), 1));
-  const SceneRun run("[load]\nf = \"-5\"\n[layer]\nepsilon = 1e-3\n[contact]\n[mesh]\nkind = \"file\"\nfile = \"" +
-                     path + "\"\n[method]\naccuracy = 0.1\n");
+  const SceneRun run(
+      "[load]\nf = \"-5\"\n[layer]\nepsilon = 1e-3\n[contact]\n[mesh]\nkind = \"file\"\nfile = \"" +
+      path + "\"\n[method]\naccuracy = 0.1\n");
   EXPECT_LE(run.summary()["certificate"]["relative"], 0.1);
 }
 
 TEST(Accuracy, IsProvedOfP1AndP2Answers) {
   for (const std::string element : {"P1", "P2"})
     for (const double epsilon : {1.0, 0.3}) {
-      const SceneRun run(scene("accuracy = 0.2\nelement = \"" + element + "\"", fmt::format("epsilon = {}", epsilon)));
+      const SceneRun run(scene("accuracy = 0.2\nelement = \"" + element + "\"",
+                               fmt::format("epsilon = {}", epsilon)));
       const auto summary = run.summary();
       EXPECT_EQ(summary["element"], element);
       EXPECT_LE(summary["certificate"]["relative"], 0.2);
@@ -100,15 +105,20 @@ TEST(Accuracy, OfACurveIsProvedOfItsPolygonAndSaysSo) {
   }
 }
 
-// A body whose top is an arc of a circle through (0, 1), (1/2, 1 + rise) and (1, 1), first as a polygon of a few edges.
-// With the arc's .geo the brackets of two first meshes meet; without it they belong to two polygons.
+// A body whose top is an arc of a circle through (0, 1), (1/2, 1 + rise) and (1, 1), first as a
+// polygon of a few edges. With the arc's .geo the brackets of two first meshes meet; without it
+// they belong to two polygons.
 TEST(Accuracy, OfACurveReturnsToTheGeometryThatTheSceneNames) {
   const TemporaryFolder folder;
   const double rise = -0.1, radius = (0.25 + rise * rise) / (2 * -rise), centre = 1 + rise + radius;
-  const auto arc = [&](double x) { return centre - std::sqrt(radius * radius - (x - 0.5) * (x - 0.5)); };
+  const auto arc = [&](double x) {
+    return centre - std::sqrt(radius * radius - (x - 0.5) * (x - 0.5));
+  };
   const std::string geometry = fmt::format(
-      "Point(1) = {{0, 0, 0}}; Point(2) = {{1, 0, 0}}; Point(3) = {{1, 1, 0}}; Point(4) = {{0, 1, 0}};\n"
-      "Point(5) = {{0.5, {:.17g}, 0}};\nLine(1) = {{1, 2}}; Line(2) = {{2, 3}}; Line(4) = {{4, 1}};\n",
+      "Point(1) = {{0, 0, 0}}; Point(2) = {{1, 0, 0}}; Point(3) = {{1, 1, 0}}; Point(4) = {{0, 1, "
+      "0}};\n"
+      "Point(5) = {{0.5, {:.17g}, 0}};\nLine(1) = {{1, 2}}; Line(2) = {{2, 3}}; Line(4) = {{4, "
+      "1}};\n",
       centre);
   const auto run = [&](int cells, const std::string& curve, double row = 1,
                        const std::string& more = "accuracy = 0.05") {
@@ -121,9 +131,11 @@ TEST(Accuracy, OfACurveReturnsToTheGeometryThatTheSceneNames) {
     write_msh(folder / "arch.msh", mesh);
     std::filesystem::remove(folder / "arch.geo");
     if (!curve.empty()) std::ofstream(folder / "arch.geo") << geometry << curve;
-    const std::string named = curve.empty() ? "" : "geometry = \"" + (folder / "arch.geo").string() + "\"\n";
-    return SceneRun("[load]\nf = \"10\"\n[mesh]\nkind = \"file\"\nfile = \"" + (folder / "arch.msh").string() + "\"\n" +
-                    named + (more == "refinements" ? "refinements = 3\n" : "[method]\n" + more + "\n"));
+    const std::string named =
+        curve.empty() ? "" : "geometry = \"" + (folder / "arch.geo").string() + "\"\n";
+    return SceneRun("[load]\nf = \"10\"\n[mesh]\nkind = \"file\"\nfile = \"" +
+                    (folder / "arch.msh").string() + "\"\n" + named +
+                    (more == "refinements" ? "refinements = 3\n" : "[method]\n" + more + "\n"));
   };
   const auto bracket = [&](int cells, const std::string& curve) {
     const SceneRun found = run(cells, curve);
@@ -133,10 +145,12 @@ TEST(Accuracy, OfACurveReturnsToTheGeometryThatTheSceneNames) {
     EXPECT_EQ(of.find("on the curves of arch.geo") != std::string::npos, !curve.empty()) << of;
     EXPECT_EQ(warning, "") << "four edges look like no curve";
     EXPECT_EQ(summary["scene"]["method"]["tolerance"], 1e-2 * 0.05);
-    return std::pair<double, double>(summary["certificate"]["energy_lower"], summary["certificate"]["energy_upper"]);
+    return std::pair<double, double>(summary["certificate"]["energy_lower"],
+                                     summary["certificate"]["energy_upper"]);
   };
   const std::string circle = "Circle(3) = {3, 5, 4};\n";
-  const auto coarse = bracket(2, circle), fine = bracket(4, circle), polygon = bracket(2, ""), other = bracket(4, "");
+  const auto coarse = bracket(2, circle), fine = bracket(4, circle), polygon = bracket(2, ""),
+             other = bracket(4, "");
   EXPECT_LT(std::max(coarse.first, fine.first), std::min(coarse.second, fine.second));
   EXPECT_LT(polygon.second, other.first)
       << "the polygon of two edges lies above that of four: a larger body, less energy";
@@ -147,19 +161,22 @@ TEST(Accuracy, OfACurveReturnsToTheGeometryThatTheSceneNames) {
   int on_top = 0;
   for (int v = 0; v < mesh.vertex_count(); ++v)
     if (const double x = mesh.vertices(v, 0); mesh.vertices(v, 1) > arc(x) - 1e-3) {
-      EXPECT_NEAR(mesh.vertices(v, 1), arc(x), 1e-8) << x;  // gmsh looks for the nearest point to 1e-9 of its parameter
+      EXPECT_NEAR(mesh.vertices(v, 1), arc(x), 1e-8)
+          << x;  // gmsh looks for the nearest point to 1e-9 of its parameter
       ++on_top;
     }
   EXPECT_EQ(on_top, 17);
 
-  expect_no_answer(run(2, "Line(3) = {3, 4};\n"), "arch.geo: no curve of it holds the edge of the boundary from");
+  expect_no_answer(run(2, "Line(3) = {3, 4};\n"),
+                   "arch.geo: no curve of it holds the edge of the boundary from");
   expect_no_answer(run(2, "Line(3) = {3 4};\n"), "arch.geo', line 4: syntax error");
   expect_no_answer(run(2, circle, 0.02), "for which the first mesh is too coarse: inverted");
 }
 
 TEST(Accuracy, OutOfReachIsStatusThreeAndNoFiles) {
   expect_no_answer(SceneRun(scene("accuracy = 0.001\nmost_unknowns = 20000")), "can be reached", 3);
-  expect_no_answer(SceneRun(scene("accuracy = 0.1\nmost_unknowns = 50")), "cannot hold the first mesh");
+  expect_no_answer(SceneRun(scene("accuracy = 0.1\nmost_unknowns = 50")),
+                   "cannot hold the first mesh");
 }
 
 }  // namespace antilock::test::accuracy_test

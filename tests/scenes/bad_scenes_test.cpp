@@ -1,4 +1,5 @@
-// Every scene that cannot be asked: exit status 2, one line on standard error that names file and key, nothing written.
+// Every scene that cannot be asked: exit status 2, one line on standard error that names file and
+// key, nothing written.
 #include "antilock/runner/scene_mesh.hpp"
 
 #include <sys/stat.h>
@@ -17,7 +18,9 @@ struct BadScene {
 };
 
 // Google Test asks for a function of this name
-void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.name; }  // NOLINT(readability-identifier-naming)
+void PrintTo(const BadScene& bad, std::ostream* out) {
+  *out << bad.name;
+}  // NOLINT(readability-identifier-naming)
 
 const std::string load = "[load]\nf = \"1\"\n", mesh = "[mesh]\nkind = \"structured\"\ncells = 8\n";
 
@@ -27,10 +30,16 @@ std::string repeated(const std::string& text, int times) {
   return all;
 }
 std::string with_load(const std::string& f) { return "[load]\nf = " + f + "\n" + mesh; }
-std::string with_layer(const std::string& lines) { return load + "[layer]\n" + lines + "\n" + mesh; }
-std::string with_contact(const std::string& lines) { return load + "[contact]\n" + lines + "\n" + mesh; }
+std::string with_layer(const std::string& lines) {
+  return load + "[layer]\n" + lines + "\n" + mesh;
+}
+std::string with_contact(const std::string& lines) {
+  return load + "[contact]\n" + lines + "\n" + mesh;
+}
 std::string with_mesh(const std::string& lines) { return load + "[mesh]\n" + lines + "\n"; }
-std::string with_method(const std::string& lines) { return load + mesh + "[method]\n" + lines + "\n"; }
+std::string with_method(const std::string& lines) {
+  return load + mesh + "[method]\n" + lines + "\n";
+}
 
 const std::vector<BadScene> bad_scenes = {
     // the file
@@ -49,10 +58,13 @@ const std::vector<BadScene> bad_scenes = {
     {"SyntaxTildeInAHeader", "syntax",
      "[~load]\nf = \"1\"\n"},  // found by the fuzzer: an assertion of toml++ built for debugging
     {"SyntaxKeyOfManyParts", "syntax", "a" + repeated(".a", 200000) + " = 1\n" + load + mesh},
-    {"SyntaxKeyOfManyQuotedParts", "syntax", "\"a\"" + repeated(" . 'a'", 65) + " = 1\n" + load + mesh},
+    {"SyntaxKeyOfManyQuotedParts", "syntax",
+     "\"a\"" + repeated(" . 'a'", 65) + " = 1\n" + load + mesh},
     {"SyntaxHeaderOfManyParts", "syntax", load + mesh + "[a" + repeated(".a", 200000) + "]\n"},
-    {"SyntaxDeepArray", "syntax", "a = " + repeated("[", 65) + repeated("]", 65) + "\n" + load + mesh},
-    {"SyntaxDeepTable", "syntax", "a = " + repeated("{a=", 65) + "1" + repeated("}", 65) + "\n" + load + mesh},
+    {"SyntaxDeepArray", "syntax",
+     "a = " + repeated("[", 65) + repeated("]", 65) + "\n" + load + mesh},
+    {"SyntaxDeepTable", "syntax",
+     "a = " + repeated("{a=", 65) + "1" + repeated("}", 65) + "\n" + load + mesh},
     {"LargerThanAMegabyte", "file", "#" + std::string(1100000, 'x')},
     // sections
     {"NoLoad", "load", mesh},
@@ -126,12 +138,16 @@ const std::vector<BadScene> bad_scenes = {
     {"CellsText", "mesh.cells", with_mesh("kind = \"structured\"\ncells = \"8\"")},
     {"CellsTooManyStructured", "mesh.cells", with_mesh("kind = \"structured\"\ncells = 2049")},
     {"CellsTooManyUnstructured", "mesh.cells", with_mesh("kind = \"unstructured\"\ncells = 513")},
-    {"RefinementsZero", "mesh.refinements", with_mesh("kind = \"structured\"\ncells = 8\nrefinements = 0")},
-    {"RefinementsReal", "mesh.refinements", with_mesh("kind = \"structured\"\ncells = 8\nrefinements = 1.5")},
-    {"RefinementsTooMany", "mesh.refinements", with_mesh("kind = \"structured\"\ncells = 512\nrefinements = 3")},
+    {"RefinementsZero", "mesh.refinements",
+     with_mesh("kind = \"structured\"\ncells = 8\nrefinements = 0")},
+    {"RefinementsReal", "mesh.refinements",
+     with_mesh("kind = \"structured\"\ncells = 8\nrefinements = 1.5")},
+    {"RefinementsTooMany", "mesh.refinements",
+     with_mesh("kind = \"structured\"\ncells = 512\nrefinements = 3")},
     {"CellsOverflow", "mesh.cells", with_mesh("kind = \"structured\"\ncells = 4294967304")},
     {"CellsTooFewToMoveAnything", "mesh", with_mesh("kind = \"structured\"\ncells = 1")},
-    {"FileWithStructured", "mesh.file", with_mesh("kind = \"structured\"\ncells = 8\nfile = \"my.msh\"")},
+    {"FileWithStructured", "mesh.file",
+     with_mesh("kind = \"structured\"\ncells = 8\nfile = \"my.msh\"")},
     {"CellsWithFile", "mesh.cells", with_mesh("kind = \"file\"\ncells = 8\nfile = \"my.msh\"")},
     {"FileMissing", "mesh.file", with_mesh("kind = \"file\"")},
     {"FileEmptyName", "mesh.file", with_mesh("kind = \"file\"\nfile = \"\"")},
@@ -145,21 +161,27 @@ const std::vector<BadScene> bad_scenes = {
     {"LayerThicknessAlone", "layer.stiffness", with_layer("thickness = 0.1")},
     {"LayerThicknessZero", "layer.thickness", with_layer("thickness = 0\nstiffness = 1")},
     {"LayerStiffnessNegative", "layer.stiffness", with_layer("thickness = 0.1\nstiffness = -1")},
-    {"LayerLoadOnVentcel", "layer.load", with_layer("epsilon = 0\nmodel = \"ventcel\"\nload = \"1\"")},
+    {"LayerLoadOnVentcel", "layer.load",
+     with_layer("epsilon = 0\nmodel = \"ventcel\"\nload = \"1\"")},
     {"CeilingIsANumber", "contact.ceiling", with_contact("ceiling = 1")},
     {"EdgesWithoutAFile", "edge", load + mesh + "[[edge]]\ngroup = \"top\"\nfree = true\n"},
     {"EdgeIsASection", "edge", load + mesh + "[edge]\ngroup = \"top\"\n"},
     {"BodyGroupsWithoutAFile", "body", load + mesh + "[body]\nstiffness = { left = 1 }\n"},
     {"AccuracyOfAVaryingStiffness", "method.accuracy",
      with_method("accuracy = 0.1") + "[body]\nstiffness = \"1 + x\"\n"},
-    {"AccuracyOfACeiling", "method.accuracy", with_method("accuracy = 0.1") + "[contact]\nceiling = \"2\"\n"},
-    {"PetscOfACeiling", "method.solver", with_method("solver = \"petsc\"") + "[contact]\nceiling = \"2\"\n"},
+    {"AccuracyOfACeiling", "method.accuracy",
+     with_method("accuracy = 0.1") + "[contact]\nceiling = \"2\"\n"},
+    {"PetscOfACeiling", "method.solver",
+     with_method("solver = \"petsc\"") + "[contact]\nceiling = \"2\"\n"},
     {"ModelKindUnknown", "model.kind", load + mesh + "[model]\nkind = \"plane stress\"\n"},
     {"ModelWithoutContact", "model.kind", load + mesh + "[model]\nkind = \"plane strain\"\n"},
-    {"ModelKeyOfTheOther", "model.young", with_contact("") + "[model]\nkind = \"plane strain\"\nyoung = 1\n"},
-    {"ModelEpsilonTooLarge", "model.epsilon", with_contact("") + "[model]\nkind = \"plane strain\"\nepsilon = 2\n"},
+    {"ModelKeyOfTheOther", "model.young",
+     with_contact("") + "[model]\nkind = \"plane strain\"\nyoung = 1\n"},
+    {"ModelEpsilonTooLarge", "model.epsilon",
+     with_contact("") + "[model]\nkind = \"plane strain\"\nepsilon = 2\n"},
     {"ModelIncompressible", "model.poisson",
-     with_contact("") + "[layer]\nepsilon = 0.1\n[model]\nkind = \"plane strain\"\npoisson = 0.5\n"},
+     with_contact("") +
+         "[layer]\nepsilon = 0.1\n[model]\nkind = \"plane strain\"\npoisson = 0.5\n"},
     {"ElementInSmallLetters", "method.element", with_method("element = \"cr\"")},
     {"SolverUnknown", "method.solver", with_method("solver = \"newton\"")},
     {"AccuracyZero", "method.accuracy", with_method("accuracy = 0")},
@@ -172,11 +194,14 @@ const std::vector<BadScene> bad_scenes = {
     {"AccuracyByUzawa", "method.solver", with_method("accuracy = 0.1\nsolver = \"uzawa\"")},
     {"OfUnknown", "method.of", with_method("accuracy = 0.1\nof = \"strain\"")},
     {"OfWithoutAccuracy", "method.of", with_method("of = \"stress\"")},
-    {"OfTheStressOfP1", "method.of", with_method("accuracy = 0.1\nelement = \"P1\"\nof = \"stress\"")},
+    {"OfTheStressOfP1", "method.of",
+     with_method("accuracy = 0.1\nelement = \"P1\"\nof = \"stress\"")},
     {"MostUnknownsWithoutAccuracy", "method.most_unknowns", with_method("most_unknowns = 1000")},
     {"MostUnknownsZero", "method.most_unknowns", with_method("accuracy = 0.1\nmost_unknowns = 0")},
-    {"MostUnknownsBelowTheFirstMesh", "method.accuracy", with_method("accuracy = 0.1\nmost_unknowns = 50")},
-    {"MostUnknownsTooMany", "method.most_unknowns", with_method("accuracy = 0.1\nmost_unknowns = 2e9")},
+    {"MostUnknownsBelowTheFirstMesh", "method.accuracy",
+     with_method("accuracy = 0.1\nmost_unknowns = 50")},
+    {"MostUnknownsTooMany", "method.most_unknowns",
+     with_method("accuracy = 0.1\nmost_unknowns = 2e9")},
     {"ToleranceZero", "method.tolerance", with_method("tolerance = 0")},
     {"ToleranceNegative", "method.tolerance", with_method("tolerance = -1e-10")},
     {"ToleranceOne", "method.tolerance", with_method("tolerance = 1")},
@@ -186,7 +211,8 @@ const std::vector<BadScene> bad_scenes = {
     {"LayeredWithoutLayer", "mesh.kind", with_mesh("kind = \"layered\"\ncells = 8")},
     {"LayeredThin", "mesh.kind",
      load + "[layer]\nepsilon = 0.1\nmodel = \"thin\"\n[mesh]\nkind = \"layered\"\ncells = 8\n"},
-    {"CellsTooManyLayered", "mesh.cells", load + "[layer]\nepsilon = 0.1\n[mesh]\nkind = \"layered\"\ncells = 513\n"},
+    {"CellsTooManyLayered", "mesh.cells",
+     load + "[layer]\nepsilon = 0.1\n[mesh]\nkind = \"layered\"\ncells = 513\n"},
     {"ToleranceNan", "method.tolerance", with_method("tolerance = nan")},
     {"ToleranceText", "method.tolerance", with_method("tolerance = \"1e-10\"")},
     {"MethodUnknownKey", "method.order", with_method("order = 2")},
@@ -211,26 +237,33 @@ INSTANTIATE_TEST_SUITE_P(All, BadScenes, testing::ValuesIn(bad_scenes),
 // Brackets and dots of strings and comments do not count.
 TEST(BadScenes, ADepthIsRefusedWithItsLine) {
   const std::string dots = repeated(".", 100), open = repeated("[", 100);
-  const std::string quoted = "title = \"\"\"\\\"\"\" " + open + dots + "\n\"\"\"\"\" # '" + dots + open + "\n" +
-                             "[load]\nf = '10' # \"\n" + mesh;  // seven lines
+  const std::string quoted = "title = \"\"\"\\\"\"\" " + open + dots + "\n\"\"\"\"\" # '" + dots +
+                             open + "\n" + "[load]\nf = '10' # \"\n" + mesh;  // seven lines
   EXPECT_EQ(read_scene(quoted, "s.toml").mesh.cells, 8);
-  const std::string deepest = "a" + repeated(".a", 63) + " = " + repeated("[", 64) + repeated("]", 64) + "\n";
-  test::expect_refused([&] { read_scene(deepest + load + mesh, "s.toml"); }, "s.toml: a: unknown key");
-  test::expect_refused([&] { read_scene(quoted + "b" + repeated(".b", 64) + " = 1\n", "s.toml"); },
-                       "s.toml: syntax: line 8: a key has too many parts; accepted: up to 64 parts between dots");
-  test::expect_refused([&] { read_scene(quoted + "b = '''\n'''''\n" + open, "s.toml"); },
-                       "s.toml: syntax: line 10: is nested too deeply; accepted: up to 64 brackets in each other");
+  const std::string deepest =
+      "a" + repeated(".a", 63) + " = " + repeated("[", 64) + repeated("]", 64) + "\n";
+  test::expect_refused([&] { read_scene(deepest + load + mesh, "s.toml"); },
+                       "s.toml: a: unknown key");
+  test::expect_refused(
+      [&] { read_scene(quoted + "b" + repeated(".b", 64) + " = 1\n", "s.toml"); },
+      "s.toml: syntax: line 8: a key has too many parts; accepted: up to 64 parts between dots");
+  test::expect_refused(
+      [&] { read_scene(quoted + "b = '''\n'''''\n" + open, "s.toml"); },
+      "s.toml: syntax: line 10: is nested too deeply; accepted: up to 64 brackets in each other");
 }
 
-// The file and the key stand first and once, whatever the file is called: here as the message of the refinement begins.
+// The file and the key stand first and once, whatever the file is called: here as the message of
+// the refinement begins.
 TEST(BadScenes, TheNameOfTheSceneDoesNotChangeTheMessage) {
   const SceneFile file = read_scene(with_method("accuracy = 0.1\nmost_unknowns = 50"), "accuracy");
-  test::expect_refused([&] { solve_scene(file, {}); },
-                       "accuracy: method.accuracy: accuracy: most_unknowns = 50 cannot hold the first mesh");
+  test::expect_refused(
+      [&] { solve_scene(file, {}); },
+      "accuracy: method.accuracy: accuracy: most_unknowns = 50 cannot hold the first mesh");
   // read without complaint, and infinite at the midpoint 1/14 of a contact edge of this mesh
-  const SceneFile gap = read_scene(load + "[contact]\ngap = \"0.0714 < x < 0.0715 ? 1/0 : 0\"\n" +
-                                       "[mesh]\nkind = \"structured\"\ncells = 7\n[method]\nelement = \"CR\"\n",
-                                   "gap.toml");
+  const SceneFile gap =
+      read_scene(load + "[contact]\ngap = \"0.0714 < x < 0.0715 ? 1/0 : 0\"\n" +
+                     "[mesh]\nkind = \"structured\"\ncells = 7\n[method]\nelement = \"CR\"\n",
+                 "gap.toml");
   const std::string message = test::refusal([&] { solve_scene(gap, {}); });
   EXPECT_TRUE(message.starts_with("gap.toml: contact.gap: ")) << message;
   EXPECT_EQ(message.rfind("gap.toml"), 0) << message;
@@ -241,7 +274,8 @@ std::string msh(const std::string& nodes, const std::string& elements) {
   const auto counted = [](const std::string& lines) {
     return std::to_string(std::count(lines.begin(), lines.end(), '\n')) + "\n" + lines;
   };
-  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 4 \"clamped\"\n1 5 \"contact\"\n2 1 \"body\"\n"
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 4 \"clamped\"\n1 5 "
+         "\"contact\"\n2 1 \"body\"\n"
          "$EndPhysicalNames\n$Nodes\n" +
          counted(nodes) + "$EndNodes\n$Elements\n" + counted(elements) + "$EndElements\n";
 }
@@ -249,15 +283,19 @@ std::string msh(const std::string& nodes, const std::string& elements) {
 const std::string square_nodes = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0.5 0\n";
 const std::string contact_edge = "1 1 2 5 5 1 2\n";
 const std::string clamped_edges = "2 1 2 4 4 2 3\n3 1 2 4 4 3 4\n4 1 2 4 4 4 1\n";
-const std::string square_triangles = "5 2 2 1 1 1 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n8 2 2 1 1 4 1 5\n";
+const std::string square_triangles =
+    "5 2 2 1 1 1 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n8 2 2 1 1 4 1 5\n";
 const std::string whole_square = contact_edge + clamped_edges + square_triangles;
 const std::string square = msh(square_nodes, whole_square);
-const std::string twice_the_square = msh("1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 1 1 0\n", whole_square);
+const std::string twice_the_square =
+    msh("1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 1 1 0\n", whole_square);
 
 struct BadMesh {
   std::string name, mesh, effects, key = "mesh.file", f = "1";
 };
-void PrintTo(const BadMesh& bad, std::ostream* out) { *out << bad.name; }  // NOLINT(readability-identifier-naming)
+void PrintTo(const BadMesh& bad, std::ostream* out) {
+  *out << bad.name;
+}  // NOLINT(readability-identifier-naming)
 const std::string thin_layer = "[layer]\nepsilon = 0.1\nmodel = \"thin\"\n";
 
 const std::vector<BadMesh> bad_meshes = {
@@ -266,8 +304,8 @@ const std::vector<BadMesh> bad_meshes = {
     {"NoClampedGroup", msh(square_nodes, contact_edge + square_triangles), ""},
     {"NoBodyGroup", msh(square_nodes, contact_edge + clamped_edges), ""},
     {"Inverted",
-     msh(square_nodes,
-         contact_edge + clamped_edges + "5 2 2 1 1 2 1 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n8 2 2 1 1 4 1 5\n"),
+     msh(square_nodes, contact_edge + clamped_edges +
+                           "5 2 2 1 1 2 1 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n8 2 2 1 1 4 1 5\n"),
      ""},
     {"Degenerate", msh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0 0\n", whole_square), ""},
     {"DanglingEdge", msh(square_nodes + "6 0.2 0.7 0\n", whole_square + "9 1 2 4 4 1 6\n"), ""},
@@ -276,19 +314,27 @@ const std::vector<BadMesh> bad_meshes = {
          whole_square + "9 2 2 1 1 6 7 8\n10 1 2 5 5 6 7\n11 1 2 5 5 7 8\n12 1 2 5 5 8 6\n"),
      ""},
     {"MissingTriangle",
-     msh(square_nodes, contact_edge + clamped_edges + "5 2 2 1 1 1 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n"), ""},
+     msh(square_nodes,
+         contact_edge + clamped_edges + "5 2 2 1 1 1 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n"),
+     ""},
     {"Truncated", square.substr(0, square.size() / 2), ""},
-    {"BodyBelowTheLine", msh("1 0 -1 0\n2 1 -1 0\n3 1 1 0\n4 0 1 0\n5 0.5 0.5 0\n", whole_square), ""},
-    {"BodyAboveTheLine", msh("1 0 1 0\n2 1 1 0\n3 1 2 0\n4 0 2 0\n5 0.5 1.5 0\n", whole_square), ""},
-    {"GapAgainstTheClampOfThisBody", twice_the_square, "[contact]\ngap = \"x < 1.5 ? 0.1 : -0.1\"\n", "contact.gap"},
+    {"BodyBelowTheLine", msh("1 0 -1 0\n2 1 -1 0\n3 1 1 0\n4 0 1 0\n5 0.5 0.5 0\n", whole_square),
+     ""},
+    {"BodyAboveTheLine", msh("1 0 1 0\n2 1 1 0\n3 1 2 0\n4 0 2 0\n5 0.5 1.5 0\n", whole_square),
+     ""},
+    {"GapAgainstTheClampOfThisBody", twice_the_square,
+     "[contact]\ngap = \"x < 1.5 ? 0.1 : -0.1\"\n", "contact.gap"},
     {"LoadWithoutAValueOnThisBody", twice_the_square, "", "load.f", "1/(x - 2)"},
     {"ContactOnPartOfTheSide",
      msh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0.5 0\n6 0.5 0 0\n",
          "1 1 2 5 5 1 6\n9 1 2 4 4 6 2\n" + clamped_edges +
-             "5 2 2 1 1 1 6 5\n10 2 2 1 1 6 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n8 2 2 1 1 4 1 5\n"),
+             "5 2 2 1 1 1 6 5\n10 2 2 1 1 6 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n8 2 2 1 1 4 1 "
+             "5\n"),
      ""},
     {"ContactOnTheWrongSide",
-     msh(square_nodes, "1 1 2 5 5 3 4\n2 1 2 4 4 2 3\n3 1 2 4 4 1 2\n4 1 2 4 4 4 1\n" + square_triangles), ""},
+     msh(square_nodes,
+         "1 1 2 5 5 3 4\n2 1 2 4 4 2 3\n3 1 2 4 4 1 2\n4 1 2 4 4 4 1\n" + square_triangles),
+     ""},
 };
 
 class BadMeshes : public testing::TestWithParam<BadMesh> {};
@@ -307,25 +353,29 @@ INSTANTIATE_TEST_SUITE_P(All, BadMeshes, testing::ValuesIn(bad_meshes),
 TEST(BadMeshes, TheMeshThatTheyAreMadeFromIsGood) {
   const TemporaryFolder folder;
   std::ofstream(folder / "my.msh") << square;
-  const SceneRun run(load + "[mesh]\nkind = \"file\"\nfile = \"" + (folder / "my.msh").string() + "\"\n");
+  const SceneRun run(load + "[mesh]\nkind = \"file\"\nfile = \"" + (folder / "my.msh").string() +
+                     "\"\n");
   EXPECT_EQ(run.outcome.status, 0) << run.outcome.err;
 }
 
 // What is accepted is said of a mesh that is none, whatever the file is called.
 TEST(BadMeshes, TheNameOfTheFileDoesNotChangeTheMessage) {
   const TemporaryFolder folder;
-  std::ofstream(folder / "accepted.msh") << msh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0 0\n", whole_square);
-  const SceneRun run(load + "[mesh]\nkind = \"file\"\nfile = \"" + (folder / "accepted.msh").string() + "\"\n");
+  std::ofstream(folder / "accepted.msh")
+      << msh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0 0\n", whole_square);
+  const SceneRun run(load + "[mesh]\nkind = \"file\"\nfile = \"" +
+                     (folder / "accepted.msh").string() + "\"\n");
   expect_refused(run, "mesh.file");
-  EXPECT_TRUE(
-      run.outcome.err.ends_with("; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), "
-                                "clamped and contact, its triangles proper and connected\n"))
+  EXPECT_TRUE(run.outcome.err.ends_with(
+      "; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), "
+      "clamped and contact, its triangles proper and connected\n"))
       << run.outcome.err;
 }
 
 TEST(BadMeshes, AThinLayerAndNoLayerRefuseTheLayerOfAScaledOne) {
   for (const std::string& layer : {thin_layer, std::string()}) {
-    const SceneRun run(load + layer + "[mesh]\nkind = \"file\"\nfile = \"" EXAMPLE_SCENES "/own_mesh.msh\"\n");
+    const SceneRun run(load + layer +
+                       "[mesh]\nkind = \"file\"\nfile = \"" EXAMPLE_SCENES "/own_mesh.msh\"\n");
     expect_refused(run, "mesh.file");
   }
 }
@@ -345,7 +395,8 @@ TEST(BadCommandLine, IsRefusedInOneLine) {
 
 TEST(BadCommandLine, ASceneThatIsNotThere) {
   const TemporaryFolder log;
-  expect_one_line(run_scene("not_there.toml --out " + in_shell(log / "r"), log), "not_there.toml: file: ");
+  expect_one_line(run_scene("not_there.toml --out " + in_shell(log / "r"), log),
+                  "not_there.toml: file: ");
   expect_one_line(run_scene(in_shell(log.path().string()) + " --out " + in_shell(log / "r"), log),
                   log.path().string() + ": file: ");
   EXPECT_FALSE(std::filesystem::exists(log / "r"));
@@ -359,8 +410,9 @@ TEST(BadCommandLine, ResultsThatWouldReplaceTheirInputs) {
   std::ofstream(folder / "summary.json") << load + "[mesh]\nkind = \"structured\"\ncells = 4\n";
   for (const std::string name : {"scene.toml", "summary.json"}) {
     const std::string path = (folder / name).string(), before = contents(path);
-    expect_one_line(run_scene(in_shell(path) + " --out " + in_shell(folder.path().string()), folder),
-                    path + ": --out: ");
+    expect_one_line(
+        run_scene(in_shell(path) + " --out " + in_shell(folder.path().string()), folder),
+        path + ": --out: ");
     EXPECT_EQ(contents(path), before);
     EXPECT_EQ(contents(folder / "mesh.msh"), square);
     EXPECT_FALSE(std::filesystem::exists(folder / "solution.csv"));
@@ -370,13 +422,16 @@ TEST(BadCommandLine, ResultsThatWouldReplaceTheirInputs) {
 // What never ends, or never begins.
 TEST(BadCommandLine, DevicesAreNoFiles) {
   const TemporaryFolder folder;
-  expect_one_line(run_scene("/dev/zero --out " + in_shell(folder / "r"), folder), "/dev/zero: file: ");
+  expect_one_line(run_scene("/dev/zero --out " + in_shell(folder / "r"), folder),
+                  "/dev/zero: file: ");
   std::ofstream(folder / "scene.toml") << load + "[mesh]\nkind = \"file\"\nfile = \"/dev/zero\"\n";
   const std::string path = (folder / "scene.toml").string();
-  expect_one_line(run_scene(in_shell(path) + " --out " + in_shell(folder / "r"), folder), path + ": mesh.file: ");
+  expect_one_line(run_scene(in_shell(path) + " --out " + in_shell(folder / "r"), folder),
+                  path + ": mesh.file: ");
   ASSERT_EQ(::mkfifo((folder / "pipe.toml").c_str(), 0600), 0);
   const std::string pipe = (folder / "pipe.toml").string();
-  expect_one_line(run_scene(in_shell(pipe) + " --out " + in_shell(folder / "r"), folder), pipe + ": file: ");
+  expect_one_line(run_scene(in_shell(pipe) + " --out " + in_shell(folder / "r"), folder),
+                  pipe + ": file: ");
   EXPECT_FALSE(std::filesystem::exists(folder / "r"));
 }
 
@@ -387,7 +442,8 @@ TEST(BadCommandLine, ANameOfASceneThatNamesNoFolder) {
   const std::string in_it = "cd " + in_shell(folder / "at") + " && " + in_shell(RUN_SCENE) + " ";
   for (const std::string name : {"...toml", "..toml"}) {
     std::ofstream(folder / "at" / name) << load + mesh;
-    EXPECT_EQ(WEXITSTATUS(std::system((in_it + name + " 2>" + in_shell(log / "err")).c_str())), 2) << name;
+    EXPECT_EQ(WEXITSTATUS(std::system((in_it + name + " 2>" + in_shell(log / "err")).c_str())), 2)
+        << name;
     EXPECT_TRUE(contents(log / "err").starts_with(name + ": --out: ")) << contents(log / "err");
     EXPECT_EQ(std::system((in_it + name + " --out ../out >/dev/null").c_str()), 0);
     std::filesystem::remove_all(folder / "out");
@@ -400,8 +456,9 @@ TEST(BadCommandLine, ResultsThatCannotBeWritten) {
   std::ofstream(folder / "scene.toml") << load << mesh;
   std::ofstream(folder / "a_file") << "precious";
   for (const std::string out : {"a_file", "a_file/results"})
-    expect_one_line(run_scene(in_shell(folder / "scene.toml") + " --out " + in_shell(folder / out), folder),
-                    (folder / out).string());
+    expect_one_line(
+        run_scene(in_shell(folder / "scene.toml") + " --out " + in_shell(folder / out), folder),
+        (folder / out).string());
   EXPECT_EQ(contents(folder / "a_file"), "precious");
   expect_one_line(run_scene(in_shell(folder / "scene.toml") + " --out ''", folder), "");
 }

@@ -1,5 +1,5 @@
-// Bodies other than the unit square, from mesh files: each answer is known from one of the unit square, or from the
-// library called directly.
+// Bodies other than the unit square, from mesh files: each answer is known from one of the unit
+// square, or from the library called directly.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,15 +17,17 @@
 
 namespace antilock::test::bodies_test {
 
-std::string scene_on(const std::string& mesh, const std::string& sections, const std::string& element,
-                     const std::string& f = "0") {
-  return fmt::format("[load]\nf = \"{}\"\n{}[mesh]\nkind = \"file\"\nfile = \"{}\"\n[method]\nelement = \"{}\"\n", f,
-                     sections, mesh, element);
+std::string scene_on(const std::string& mesh, const std::string& sections,
+                     const std::string& element, const std::string& f = "0") {
+  return fmt::format(
+      "[load]\nf = \"{}\"\n{}[mesh]\nkind = \"file\"\nfile = \"{}\"\n[method]\nelement = \"{}\"\n",
+      f, sections, mesh, element);
 }
 
 /// A scene on the mesh, written beside it.
 struct OnMesh {
-  OnMesh(const TriangleMesh& mesh, const std::string& effects, const std::string& f, const std::string& element = "CR")
+  OnMesh(const TriangleMesh& mesh, const std::string& effects, const std::string& f,
+         const std::string& element = "CR")
       : path((folder / "body.msh").string()) {
     write_msh(path, mesh);
     run.emplace(scene_on(path, effects, element, f));
@@ -80,13 +82,15 @@ TEST(Bodies, OfAnyShapeAreWhatTheLibrarySolves) {
   }
 }
 
-/// The unit square with its sides in the groups left, right and top; contact below. `halves`: the body in two surfaces.
+/// The unit square with its sides in the groups left, right and top; contact below. `halves`: the
+/// body in two surfaces.
 std::string named_square(const TemporaryFolder& folder, int cells, bool halves = false) {
   TriangleMesh mesh = structured_mesh(cells, {0});
   const std::vector<BoundaryCondition> edges{{"left"}, {"right"}, {"top"}};
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
-    const Eigen::RowVector2d middle = (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1))) / 2;
+    const Eigen::RowVector2d middle =
+        (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1))) / 2;
     mesh.edge_tag[e] = natural_group(middle(0) == 0 ? 0 : middle(0) == 1 ? 1 : 2);
   }
   const std::string path = (folder / "square.msh").string();
@@ -99,7 +103,9 @@ std::string named_square(const TemporaryFolder& folder, int cells, bool halves =
   for (std::string line; std::getline(lines, line); out += line + "\n") {
     int number = 0, type = 0, tags = 0, a = 0, b = 0, v[3];
     std::istringstream fields(line);
-    if (!(fields >> number >> type >> tags >> a >> b >> v[0] >> v[1] >> v[2]) || type != 2 || tags != 2) continue;
+    if (!(fields >> number >> type >> tags >> a >> b >> v[0] >> v[1] >> v[2]) || type != 2 ||
+        tags != 2)
+      continue;
     double x = 0;
     for (const int i : v) x += mesh.vertices(i - 1, 0) / 3;
     if (x > 0.5) line = fmt::format("{} 2 2 2 2 {} {} {}", number, v[0], v[1], v[2]);
@@ -111,51 +117,62 @@ std::string edge(const std::string& group, const std::string& what) {
   return "[[edge]]\ngroup = \"" + group + "\"\n" + what + "\n";
 }
 
-// u = 3 - 2 x, by what holds at the left, a spring at the right (-u_x = -2 = -k u, u(1) = 1) or the same force, nothing
-// above and below: in every space exactly.
+// u = 3 - 2 x, by what holds at the left, a spring at the right (-u_x = -2 = -k u, u(1) = 1) or the
+// same force, nothing above and below: in every space exactly.
 TEST(Bodies, HoldPullAndSpringOnTheEdgesOfAGroup) {
   for (const std::string element : {"P1", "CR", "P2", "P3", "P4"})
-    for (const std::string right : {"spring = \"2\"", "traction = \"-2 + 0*x\"", "displacement = \"1\""}) {
+    for (const std::string right :
+         {"spring = \"2\"", "traction = \"-2 + 0*x\"", "displacement = \"1\""}) {
       const TemporaryFolder folder;
-      const SceneRun run(scene_on(named_square(folder, 4),
-                                  edge("left", "displacement = \"3 + y - y\"") + edge("right", right) +
-                                      edge("top", element == "P1" ? "spring = \"0*x\"" : "free = true") +
-                                      "[at]\npoints = [[0.25, 0.6], [1, 1]]\n",
-                                  element));
+      const SceneRun run(
+          scene_on(named_square(folder, 4),
+                   edge("left", "displacement = \"3 + y - y\"") + edge("right", right) +
+                       edge("top", element == "P1" ? "spring = \"0*x\"" : "free = true") +
+                       "[at]\npoints = [[0.25, 0.6], [1, 1]]\n",
+                   element));
       const auto s = run.summary();
       const Csv u = read_csv(run.results / "solution.csv");
-      EXPECT_LE((u.rows.col(2).array() - 3 + 2 * u.rows.col(0).array()).abs().maxCoeff(), 1e-12) << element << right;
+      EXPECT_LE((u.rows.col(2).array() - 3 + 2 * u.rows.col(0).array()).abs().maxCoeff(), 1e-12)
+          << element << right;
       EXPECT_NEAR(s["at"][0]["u"].get<double>(), 2.5, 1e-12);
       EXPECT_NEAR(s["at"][1]["u"].get<double>(), 1, 1e-12);
     }
 }
 
-// u_x is 1 in a half of stiffness 1 and 0.1 in one of 10 under the traction 1, by a formula or per group.
+// u_x is 1 in a half of stiffness 1 and 0.1 in one of 10 under the traction 1, by a formula or per
+// group.
 TEST(Bodies, AreAsStiffAsTheirPartsAre) {
-  for (const std::string stiffness : {"\"1 + 9*(x > 0.5)\"", "{ body = 1, stiff = 10 }", "{ stiff = 10 }"}) {
+  for (const std::string stiffness :
+       {"\"1 + 9*(x > 0.5)\"", "{ body = 1, stiff = 10 }", "{ stiff = 10 }"}) {
     const TemporaryFolder folder;
     const SceneRun run(scene_on(named_square(folder, 4, stiffness.front() == '{'),
-                                "[body]\nstiffness = " + stiffness + "\n" + edge("left", "displacement = \"0\"") +
+                                "[body]\nstiffness = " + stiffness + "\n" +
+                                    edge("left", "displacement = \"0\"") +
                                     edge("right", "traction = \"1\"") + edge("top", "free = true"),
                                 "CR"));
     if (stiffness == "{ stiff = 10 }") {
-      EXPECT_NE(run.outcome.err.find("body.stiffness: names no group of the surface at"), std::string::npos);
+      EXPECT_NE(run.outcome.err.find("body.stiffness: names no group of the surface at"),
+                std::string::npos);
       continue;
     }
     EXPECT_NEAR(run.summary()["u_max"].get<double>(), 0.55, 1e-12) << stiffness;
-    EXPECT_EQ(read_scene_file(run.scene_path).scene.body().stiffness(0.9, 1.05), 10) << "a refined curve goes there";
+    EXPECT_EQ(read_scene_file(run.scene_path).scene.body().stiffness(0.9, 1.05), 10)
+        << "a refined curve goes there";
   }
 }
 
-// A body and a layer twice as stiff under twice the load move alike; a ceiling is a floor upside down.
+// A body and a layer twice as stiff under twice the load move alike; a ceiling is a floor upside
+// down.
 TEST(Bodies, ScaleAndTurnRound) {
   const auto asked = [](const std::string& sections, const char* f) {
-    return SceneRun(fmt::format("[load]\nf = \"{}\"\n{}[mesh]\nkind = \"structured\"\ncells = 8\n", f, sections))
+    return SceneRun(fmt::format("[load]\nf = \"{}\"\n{}[mesh]\nkind = \"structured\"\ncells = 8\n",
+                                f, sections))
         .summary();
   };
   const auto one = asked("[layer]\nepsilon = 0.1\n[contact]\n", "10*sin(2*pi*x)"),
-             two = asked("[body]\nstiffness = \"2\"\n[layer]\nthickness = 0.1\nstiffness = 20\n[contact]\n",
-                         "20*sin(2*pi*x)"),
+             two = asked(
+                 "[body]\nstiffness = \"2\"\n[layer]\nthickness = 0.1\nstiffness = 20\n[contact]\n",
+                 "20*sin(2*pi*x)"),
              below = asked("[contact]\ngap = \"0.01\"\n", "-5"),
              above = asked("[contact]\ngap = \"1\"\nceiling = \"0.01\"\n", "5");
   EXPECT_NEAR(two["u_max"].get<double>(), one["u_max"].get<double>(), 1e-12);
@@ -166,8 +183,10 @@ TEST(Bodies, ScaleAndTurnRound) {
 }
 
 TEST(Bodies, GrowTheirLayer) {
-  const OnMesh body(structured_mesh(8, {0}), "[layer]\nepsilon = 0.1\n[contact]\n", "10*sin(2*pi*x)");
-  const OnMesh both(extruded(structured_mesh(8, {0}), 0.1), "[layer]\nepsilon = 0.1\n[contact]\n", "10*sin(2*pi*x)");
+  const OnMesh body(structured_mesh(8, {0}), "[layer]\nepsilon = 0.1\n[contact]\n",
+                    "10*sin(2*pi*x)");
+  const OnMesh both(extruded(structured_mesh(8, {0}), 0.1), "[layer]\nepsilon = 0.1\n[contact]\n",
+                    "10*sin(2*pi*x)");
   ASSERT_EQ(body.run->outcome.status, 0) << body.run->outcome.err;
   EXPECT_EQ(body.energy(), both.energy());
 }
@@ -177,25 +196,31 @@ TEST(Bodies, InPlaneStrainAreWhatTheLibrarySolves) {
       "[contact]\ngap = \"(x - 0.5)^2\"\n[mesh]\nkind = \"structured\"\ncells = 8\n"
       "[method]\nelement = \"CR\"\n[load]\nf = \"x - 1\"\n";
   const auto gap = [](double x) { return (x - 0.5) * (x - 0.5); };
-  const auto expect = [&](const std::string& sections, VariationalInequality problem, const Space& space) {
+  const auto expect = [&](const std::string& sections, VariationalInequality problem,
+                          const Space& space) {
     problem.load.tail(space.size()) = load_vector(space, [](double x, double) { return x - 1; });
     const SceneRun run(pressed + sections);
     const Solution direct = active_set(problem);
     EXPECT_EQ(run.summary()["u_max"].get<double>(), direct.u.maxCoeff());
     const Csv contact = read_csv(run.results / "contact.csv");
     EXPECT_NEAR(contact.rows.col(2).sum() / 8, direct.lambda.head(8).sum(), 1e-12);
-    ASSERT_EQ(contact.rows.cols(), problem.bounds.unknowns.size() > 8 ? 4 : 3) << "a column where friction acts";
+    ASSERT_EQ(contact.rows.cols(), problem.bounds.unknowns.size() > 8 ? 4 : 3)
+        << "a column where friction acts";
     if (contact.rows.cols() == 4) {
-      EXPECT_NEAR((contact.rows.col(3) / 8 - direct.lambda.tail(8)).lpNorm<Eigen::Infinity>(), 0, 1e-12);
-      EXPECT_NEAR(contact.rows.col(3).lpNorm<Eigen::Infinity>(), 0.05, 1e-12) << "it slides somewhere";
+      EXPECT_NEAR((contact.rows.col(3) / 8 - direct.lambda.tail(8)).lpNorm<Eigen::Infinity>(), 0,
+                  1e-12);
+      EXPECT_NEAR(contact.rows.col(3).lpNorm<Eigen::Infinity>(), 0.05, 1e-12)
+          << "it slides somewhere";
     }
   };
-  const TriangleMesh square = with_free_sides(structured_mesh(8, {0})), coated = with_free_sides(structured_mesh(8));
+  const TriangleMesh square = with_free_sides(structured_mesh(8, {0})),
+                     coated = with_free_sides(structured_mesh(8));
   const Space on_square(square, crouzeix_raviart()), on_coated(coated, crouzeix_raviart());
   PlaneStrain rubber;
   rubber.gap = gap;
   rubber.epsilon = 1e-3;
-  expect("[model]\nkind = \"plane strain\"\nepsilon = 1e-3\n", assemble(rubber, {on_square, on_square}), on_square);
+  expect("[model]\nkind = \"plane strain\"\nepsilon = 1e-3\n",
+         assemble(rubber, {on_square, on_square}), on_square);
   rubber.friction = [](double) { return 0.05; };
   expect("[model]\nkind = \"plane strain\"\nepsilon = 1e-3\nfriction = \"0.05\"\n",
          assemble(rubber, {on_square, on_square}), on_square);
@@ -209,7 +234,8 @@ TEST(Bodies, InPlaneStrainAreWhatTheLibrarySolves) {
   const std::string less = "[model]\nkind = \"plane strain\"\npush = 0.05\n[layer]\n";
   expect(less + "epsilon = 1e-3\n", assemble(coating, {on_coated, on_coated}), on_coated);
   coating.layer = {2 * coating.body.lambda, 2 * coating.body.mu};
-  expect(less + "thickness = 1e-3\nstiffness = 2e3\n", assemble(coating, {on_coated, on_coated}), on_coated);
+  expect(less + "thickness = 1e-3\nstiffness = 2e3\n", assemble(coating, {on_coated, on_coated}),
+         on_coated);
 
   const SceneFile file = read_scene(pressed + "[model]\nkind = \"plane strain\"\n", "scene.toml");
   EXPECT_GT(std::get<RubberModel>(file.model).pressure(solve_scene(file, {}).result).mean(), 0)
@@ -219,20 +245,22 @@ TEST(Bodies, InPlaneStrainAreWhatTheLibrarySolves) {
 TEST(Bodies, ThatLockInPlaneStrainSaySo) {
   const std::string rubber = "[model]\nkind = \"plane strain\"\nepsilon = ",
                     coating = "[model]\nkind = \"plane strain\"\n[layer]\nepsilon = ";
-  for (const auto& [body, epsilon, mesh, element, locks] : {std::tuple{coating, "1e-4", "unstructured", "P1", true},
-                                                            {coating, "0.2", "unstructured", "P1", true},
-                                                            {coating, "1", "unstructured", "P1", false},
-                                                            {coating, "1e-4", "structured", "P1", false},
-                                                            {rubber, "1e-4", "structured", "P1", true},
-                                                            {rubber, "1e-4", "structured", "CR", false},
-                                                            {rubber, "1e-4", "structured", "P2", false},
-                                                            {rubber, "1", "structured", "P1", false}}) {
+  for (const auto& [body, epsilon, mesh, element, locks] :
+       {std::tuple{coating, "1e-4", "unstructured", "P1", true},
+        {coating, "0.2", "unstructured", "P1", true},
+        {coating, "1", "unstructured", "P1", false},
+        {coating, "1e-4", "structured", "P1", false},
+        {rubber, "1e-4", "structured", "P1", true},
+        {rubber, "1e-4", "structured", "CR", false},
+        {rubber, "1e-4", "structured", "P2", false},
+        {rubber, "1", "structured", "P1", false}}) {
     const SceneRun run(
         fmt::format("{}{}\n[load]\nf = \"0\"\n[contact]\n[mesh]\nkind = \"{}\"\ncells = 8\n"
                     "[method]\nelement = \"{}\"\n",
                     body, epsilon, mesh, element));
     const std::string warning = run.summary()["warning"];
-    EXPECT_EQ(warning.find("locks") != warning.npos, locks) << body << epsilon << mesh << element << warning;
+    EXPECT_EQ(warning.find("locks") != warning.npos, locks)
+        << body << epsilon << mesh << element << warning;
   }
 }
 
@@ -247,7 +275,8 @@ TEST(Bodies, RefuseWhatTheirGroupsDoNotSay) {
       {left + right + top + edge("hole", "free = true"), "has no curve in the group \"hole\""},
       {left + right + top + top, "edge[3].group: \"top\" has its condition already"},
       {left + right + edge("clamped", "free = true"), "\"clamped\" has its condition already"},
-      {left + right + edge("top", "free = true\nspring = \"1\""), "has 2 conditions; accepted: exactly one"},
+      {left + right + edge("top", "free = true\nspring = \"1\""),
+       "has 2 conditions; accepted: exactly one"},
       {left + right + edge("top", "free = false"), "free: is not true"},
       {left + right + edge("top", "pull = \"1\""), "edge[2].pull: unknown key"},
       {left + right + edge("top", "traction = \"z\""), "edge[2].traction"},
@@ -257,14 +286,17 @@ TEST(Bodies, RefuseWhatTheirGroupsDoNotSay) {
       {left + right + top + "[body]\nstiffness = { soft = 1 }\n", "soft"},
       {left + right + top + "[at]\npoints = [[2, 2]]\n", "at.points: (2, 2) is outside"},
       {left + right + top + "[at]\npoints = [1]\n", "at.points: has an entry that is no place"}};
-  for (const auto& [sections, what] : bad) expect_no_answer(SceneRun(scene_on(square, sections, "CR")), what);
+  for (const auto& [sections, what] : bad)
+    expect_no_answer(SceneRun(scene_on(square, sections, "CR")), what);
 }
 
 TEST(Bodies, BeyondThePaperAreRefusedByTheDoorsThatDoNotKnowThem) {
   for (const std::string name : {"coated_arch", "pressed_rubber"}) {
     const TemporaryFolder folder;
-    const Outcome outcome = run_antilock(
-        "sweep " + in_shell(std::string(EXAMPLE_SCENES) + "/" + name + ".toml") + " --epsilon 1:1e-2:2", folder);
+    const Outcome outcome =
+        run_antilock("sweep " + in_shell(std::string(EXAMPLE_SCENES) + "/" + name + ".toml") +
+                         " --epsilon 1:1e-2:2",
+                     folder);
     EXPECT_EQ(outcome.status, 2);
     EXPECT_NE(outcome.err.find("sweep: does not know "), outcome.err.npos) << outcome.err;
   }
@@ -274,23 +306,28 @@ TEST(Bodies, OnACurvedGammaCAreRefusedWhatTheyHaveNoAnswerFor) {
   const std::string scenes = EXAMPLE_SCENES, scene = contents(scenes + "/coated_arch.toml");
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = scene;
-    for (const auto& [a, b] :
-         {std::pair<std::string, std::string>{"\"coated_arch.msh", "\"" + scenes + "/coated_arch.msh"}, {from, to}})
+    for (const auto& [a, b] : {std::pair<std::string, std::string>{
+                                   "\"coated_arch.msh", "\"" + scenes + "/coated_arch.msh"},
+                               {from, to}})
       text.replace(text.find(a), a.size(), b);
     return SceneRun(text);
   };
   const std::string element = "element = \"CR\"";
   for (const auto& [from, to, what] :
-       {std::tuple{element, std::string("accuracy = 0.1"), "do not go with an accuracy asked of a layer"},
-        {std::string("traction = \"-0.3 + 0.2*x\""), std::string("free = true\n[model]\nkind = \"plane strain\""),
+       {std::tuple{element, std::string("accuracy = 0.1"),
+                   "do not go with an accuracy asked of a layer"},
+        {std::string("traction = \"-0.3 + 0.2*x\""),
+         std::string("free = true\n[model]\nkind = \"plane strain\""),
          "do not go with plane strain"},
-        {std::string("[contact]"), std::string("load = \"1\"\n[contact]"), "do not go with a load on the layer"},
+        {std::string("[contact]"), std::string("load = \"1\"\n[contact]"),
+         "do not go with a load on the layer"},
         {std::string("thickness = 0.05"), std::string("thickness = 0.65"), "meets itself"}})
     expect_no_answer(with(from, to), what);
 }
 
 TEST(Bodies, WhoseLayerDoesNotFitThemAreRefused) {
-  expect_no_answer(*OnMesh(bridge(8), "[layer]\nepsilon = 0\nmodel = \"ventcel\"\n", "1").run, "one piece");
+  expect_no_answer(*OnMesh(bridge(8), "[layer]\nepsilon = 0\nmodel = \"ventcel\"\n", "1").run,
+                   "one piece");
   expect_no_answer(*OnMesh(structured_mesh(8, {0.5}), "[layer]\nepsilon = 1e-3\n", "1").run,
                    "accepted for this scene: the strip");
 }
@@ -298,10 +335,13 @@ TEST(Bodies, WhoseLayerDoesNotFitThemAreRefused) {
 // At a tiny epsilon an edge that is 1e-9 off the vertical would tie what a column holds apart.
 TEST(Bodies, OnColumnsWithRoundedCoordinatesDoNotLock) {
   TriangleMesh mesh = extruded(unstructured_mesh(8, {0}), 1);
-  const auto answer = [&] { return OnMesh(mesh, "[layer]\nepsilon = 1e-10\n[contact]\n", "10*sin(2*pi*x)", "P1"); };
+  const auto answer = [&] {
+    return OnMesh(mesh, "[layer]\nepsilon = 1e-10\n[contact]\n", "10*sin(2*pi*x)", "P1");
+  };
   const double exact = answer().energy();
   for (int v = 0; v < mesh.vertex_count(); ++v)
-    if (double& x = mesh.vertices(v, 0); mesh.vertices(v, 1) < 0 && x > 0 && x < 1) x += 1e-9 * std::sin(7 * v);
+    if (double& x = mesh.vertices(v, 0); mesh.vertices(v, 1) < 0 && x > 0 && x < 1)
+      x += 1e-9 * std::sin(7 * v);
   const OnMesh rounded = answer();
   ASSERT_EQ(rounded.run->outcome.status, 0) << rounded.run->outcome.err;
   EXPECT_NEAR(rounded.energy(), exact, 1e-10 * std::abs(exact)) << "the vertices are put back";

@@ -7,7 +7,9 @@
 
 namespace antilock::test::expression_test {
 
-double at(const std::string& text, double x, double y) { return Expression(text, {"x", "y"})(x, y); }
+double at(const std::string& text, double x, double y) {
+  return Expression(text, {"x", "y"})(x, y);
+}
 
 TEST(Expression, IsWhatTheSameFormulaIsInCpp) {
   constexpr double pi = std::numbers::pi, x = 0.37, y = 0.81;
@@ -33,10 +35,11 @@ TEST(Expression, ConditionsChoose) {
   EXPECT_EQ(at("x >= 0.5 ? 1/x : 0", 0, 0), 0);  // the branch not taken may be infinite
 }
 
-// py-expression-eval #60, cexprtk #12, mathjs #1262: 0.2 < x < 0.5 was (0.2 < x) < 0.5, which is true of every x <= 0.2
-// and false beyond.
+// py-expression-eval #60, cexprtk #12, mathjs #1262: 0.2 < x < 0.5 was (0.2 < x) < 0.5, which is
+// true of every x <= 0.2 and false beyond.
 TEST(Expression, AChainOfComparisonsMeansWhatMathematicsMeans) {
-  for (const std::string chain : {"0.2 < x < 0.5", "0.5 > x > 0.2", "0.2 < x <= 0.5 && 1 > 0", "0 < x - 0.2 < y - 0.2"})
+  for (const std::string chain :
+       {"0.2 < x < 0.5", "0.5 > x > 0.2", "0.2 < x <= 0.5 && 1 > 0", "0 < x - 0.2 < y - 0.2"})
     for (const double x : {-1.0, 0.0, 0.2, 0.3, 0.5, 0.7, 2.0}) {
       const bool holds = 0.2 < x && (chain.find("<= 0.5") != chain.npos ? x <= 0.5 : x < 0.5);
       EXPECT_EQ(at("10*(" + chain + ")", x, 0.5), holds ? 10 : 0) << chain << " at " << x;
@@ -50,8 +53,8 @@ TEST(Expression, AChainOfComparisonsMeansWhatMathematicsMeans) {
   EXPECT_EQ(at("(0.2 < x) < 0.5", 0.1, 0), 1);  // in brackets: what they say
 }
 
-// Other texts that a reader takes in two ways: each has the meaning of mathematics, which C++ or numpy may not share, or is
-// refused.
+// Other texts that a reader takes in two ways: each has the meaning of mathematics, which C++ or
+// numpy may not share, or is refused.
 TEST(Expression, HasNoSecondMeaning) {
   EXPECT_EQ(at("-2^2", 0, 0), -4);
   EXPECT_EQ(at("2^-1", 0, 0), 0.5);
@@ -117,7 +120,8 @@ TEST(Expression, HasNoSecondMeaning) {
 }
 
 TEST(Expression, DoesNotDependOnTheLocale) {
-  const char* const before = std::setlocale(LC_ALL, "de_DE.UTF-8");  // a comma for the decimal point, where installed
+  const char* const before =
+      std::setlocale(LC_ALL, "de_DE.UTF-8");  // a comma for the decimal point, where installed
   EXPECT_EQ(at("0.5*x", 3, 0), 1.5);
   std::setlocale(LC_ALL, "C");
   (void)before;
@@ -127,7 +131,8 @@ TEST(Expression, KeepsItsOwnVariables) {
   const Expression f("x - y", {"x", "y"}), g("x", {"x"});
   EXPECT_EQ(g(7), 7);
   EXPECT_EQ(f(3, 1), 2);
-  const Expression copy = f;  // NOLINT(performance-unnecessary-copy-initialization): the copy is what is tested
+  const Expression copy =
+      f;  // NOLINT(performance-unnecessary-copy-initialization): the copy is what is tested
   EXPECT_EQ(copy(5, 1), 4);
   EXPECT_EQ(f(3, 1), 2);
 }
@@ -152,9 +157,10 @@ TEST(Expression, SaysWhereItIsNotFinite) {
 }
 
 TEST(Expression, RefusesInOneLineWhatItDoesNotUnderstand) {
-  std::vector<std::string> texts{"",     " ",   "x +",  "z",     "2x",  "x = 1", "x, y",     "\"x\"",
-                                 "_pi",  "_e",  "e",    "sin x", "(x",  "x)",    "x**2",     "x ? 1",
-                                 "f(x)", "x;y", "x\ny", "1.2.3", "0x1", "x'",    "\xc3\xa9", "sin(x,y)"};
+  std::vector<std::string> texts{"",     " ",     "x +",  "z",     "2x",       "x = 1",
+                                 "x, y", "\"x\"", "_pi",  "_e",    "e",        "sin x",
+                                 "(x",   "x)",    "x**2", "x ? 1", "f(x)",     "x;y",
+                                 "x\ny", "1.2.3", "0x1",  "x'",    "\xc3\xa9", "sin(x,y)"};
   texts.emplace_back("x\0y", 3);
   texts.emplace_back(5000, '(');
   for (const std::string& text : texts) {

@@ -17,17 +17,23 @@ class Beside {
  public:
   Beside() { write_msh(folder / "body.msh", structured_mesh(2, {0})); }
 
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder / name) << text;
+  }
   /// A scene beside body.msh, its section [mesh] continued by `more`.
   SceneRun run(const std::string& more, const std::string& name = "body.msh") const {
     const auto path = [&](const std::string& file) { return (folder / file).string(); };
     std::string mesh = more;
-    if (const auto at = mesh.find("geometry = \""); at != mesh.npos) mesh.insert(at + 12, folder.path().string() + "/");
-    return SceneRun("[load]\nf = \"10\"\n[mesh]\nkind = \"file\"\nfile = \"" + path(name) + "\"\n" + mesh);
+    if (const auto at = mesh.find("geometry = \""); at != mesh.npos)
+      mesh.insert(at + 12, folder.path().string() + "/");
+    return SceneRun("[load]\nf = \"10\"\n[mesh]\nkind = \"file\"\nfile = \"" + path(name) + "\"\n" +
+                    mesh);
   }
   bool marked() const { return std::filesystem::exists(folder / "marker"); }
   /// A command of gmsh that leaves a file.
-  std::string command() const { return "SystemCall \"touch " + (folder / "marker").string() + "\";\n"; }
+  std::string command() const {
+    return "SystemCall \"touch " + (folder / "marker").string() + "\";\n";
+  }
 
   TemporaryFolder folder;
 };
@@ -44,8 +50,9 @@ TEST(Geometry, ThatTheSceneDoesNotNameIsNotReadAndWarnedOf) {
     beside.write(file, beside.command() + square);
     for (const std::string& asked : {refined, accurate}) {
       const std::string warning = beside.run(asked).summary()["warning"];
-      EXPECT_NE(warning.find("mesh.geometry: " + file + " lies beside the mesh file and was not read"),
-                std::string::npos)
+      EXPECT_NE(
+          warning.find("mesh.geometry: " + file + " lies beside the mesh file and was not read"),
+          std::string::npos)
           << warning;
       EXPECT_NE(warning.find("geometry = \""), std::string::npos) << warning;
     }
@@ -61,7 +68,8 @@ TEST(Geometry, OfASceneIsNamedRelativeToIt) {
   std::ofstream(folder / "meshes/body.geo") << square;
   const std::string scene =
       "[load]\nf = \"10\"\n[mesh]\nkind = \"file\"\nfile = \"meshes/body.msh\"\nrefinements = 1\n";
-  const std::string run = in_shell((folder / "scene.toml").string()) + " --out " + in_shell(results.path().string());
+  const std::string run =
+      in_shell((folder / "scene.toml").string()) + " --out " + in_shell(results.path().string());
   const auto summary = [&] { return nlohmann::json::parse(contents(results / "summary.json")); };
 
   std::ofstream(folder / "scene.toml") << scene;
@@ -79,10 +87,13 @@ TEST(Geometry, WithACommandIsRefusedByNameAndLineAndNothingIsRun) {
   const Beside beside;
   for (const std::string& asked : {std::string(), refined, accurate}) {
     beside.write("body.geo", square + beside.command());
-    expect_no_answer(beside.run("geometry = \"body.geo\"\n" + asked), "body.geo: line 3: SystemCall: ");
+    expect_no_answer(beside.run("geometry = \"body.geo\"\n" + asked),
+                     "body.geo: line 3: SystemCall: ");
     beside.write("body.geo", square + "For i In {1:2}\n" + beside.command() + "EndFor\n");
-    expect_no_answer(beside.run("geometry = \"body.geo\"\n" + asked), "body.geo: line 4: SystemCall: ");
-    beside.write("body.geo", "Macro Draw\n" + beside.command() + "Return\n" + square + "Call Draw;\n");
+    expect_no_answer(beside.run("geometry = \"body.geo\"\n" + asked),
+                     "body.geo: line 4: SystemCall: ");
+    beside.write("body.geo",
+                 "Macro Draw\n" + beside.command() + "Return\n" + square + "Call Draw;\n");
     expect_no_answer(beside.run("geometry = \"body.geo\"\n" + asked), "body.geo: line 1: Macro: ");
     EXPECT_FALSE(beside.marked());
   }
@@ -103,8 +114,10 @@ TEST(Geometry, IsReadWithoutWhatLiesBesideIt) {
 TEST(Geometry, IsNoScriptUnderAnotherName) {
   const Beside beside;
   beside.write("body.brep", beside.command() + square);
-  expect_no_answer(beside.run("geometry = \"body.brep\"\n" + refined), "body.brep: OpenCASCADE finds no shape in it");
-  for (const std::string name : {"body.step", "body.geo.gz", "body.py", "body.geo_unrolled", "body.GEO", "body"}) {
+  expect_no_answer(beside.run("geometry = \"body.brep\"\n" + refined),
+                   "body.brep: OpenCASCADE finds no shape in it");
+  for (const std::string name :
+       {"body.step", "body.geo.gz", "body.py", "body.geo_unrolled", "body.GEO", "body"}) {
     beside.write(name, beside.command() + square);
     expect_no_answer(beside.run("geometry = \"" + name + "\"\n" + refined), "mesh.geometry: ");
   }
@@ -121,7 +134,8 @@ TEST(Geometry, ThatIsNotThereOrNoFileIsRefused) {
   for (const std::string name : {"absent.geo", "absent.brep", "link.geo"})
     expect_no_answer(beside.run("geometry = \"" + name + "\"\n"), name + ": cannot be opened");
   for (const std::string name : {"folder.geo", "pipe.geo"})
-    expect_no_answer(beside.run("geometry = \"" + name + "\"\n"), name + ": is a folder, a device or a pipe");
+    expect_no_answer(beside.run("geometry = \"" + name + "\"\n"),
+                     name + ": is a folder, a device or a pipe");
 }
 
 TEST(Geometry, GoesWithAMeshFileAndOneProcess) {
@@ -129,8 +143,9 @@ TEST(Geometry, GoesWithAMeshFileAndOneProcess) {
   expect_no_answer(SceneRun(load + "kind = \"structured\"\ncells = 4\ngeometry = \"body.geo\"\n"),
                    "mesh.geometry: goes with a mesh file only");
   for (const std::string value : {"1", "\"\"", "\"a\\u0000.geo\""})
-    expect_no_answer(SceneRun(load + "kind = \"file\"\nfile = \"body.msh\"\ngeometry = " + value + "\n"),
-                     "mesh.geometry: is ");
+    expect_no_answer(
+        SceneRun(load + "kind = \"file\"\nfile = \"body.msh\"\ngeometry = " + value + "\n"),
+        "mesh.geometry: is ");
   const Beside beside;
   beside.write("body.geo", square);
   expect_no_answer(beside.run("geometry = \"body.geo\"\n[method]\nsolver = \"petsc\"\n"),
@@ -141,7 +156,8 @@ TEST(Geometry, OfAnotherBodyIsRefused) {
   const Beside beside;
   beside.write("body.geo", square + "Delete { Curve{3}; }\n");
   for (const std::string& asked : {std::string(), refined, accurate})
-    expect_no_answer(beside.run("geometry = \"body.geo\"\n" + asked), "body.geo: no curve of it holds the edge");
+    expect_no_answer(beside.run("geometry = \"body.geo\"\n" + asked),
+                     "body.geo: no curve of it holds the edge");
   beside.write("body.geo", square + "\nLine(5) = {3 4};\n");
   expect_no_answer(beside.run("geometry = \"body.geo\"\n"), "body.geo', line 4: syntax error");
 }

@@ -1,5 +1,5 @@
-// What run_scene writes, held to its interface: files, keys, columns, rows, signs, and the numbers of the exact
-// solution.
+// What run_scene writes, held to its interface: files, keys, columns, rows, signs, and the numbers
+// of the exact solution.
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -26,19 +26,25 @@ Keys keys(const nlohmann::json& object) {
 
 Keys files(const std::filesystem::path& folder) {
   Keys names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
   return names;
 }
 
-std::string scene(const std::string& effects, const std::string& mesh, const std::string& method = "",
-                  const std::string& f = "10*sin(2*pi*x)") {
-  return "[load]\nf = \"" + f + "\"\n" + effects + "[mesh]\n" + mesh + "\n[method]\n" + method + "\n";
+std::string scene(const std::string& effects, const std::string& mesh,
+                  const std::string& method = "", const std::string& f = "10*sin(2*pi*x)") {
+  return "[load]\nf = \"" + f + "\"\n" + effects + "[mesh]\n" + mesh + "\n[method]\n" + method +
+         "\n";
 }
 std::string layer(const std::string& epsilon, const std::string& model = "scaled") {
   return "[layer]\nepsilon = " + epsilon + "\nmodel = \"" + model + "\"\n";
 }
-std::string structured(int cells) { return fmt::format("kind = \"structured\"\ncells = {}", cells); }
-std::string unstructured(int cells) { return fmt::format("kind = \"unstructured\"\ncells = {}", cells); }
+std::string structured(int cells) {
+  return fmt::format("kind = \"structured\"\ncells = {}", cells);
+}
+std::string unstructured(int cells) {
+  return fmt::format("kind = \"unstructured\"\ncells = {}", cells);
+}
 const std::string contact = "[contact]\n", cr = "element = \"CR\"\n";
 
 /// Everything that holds for every answer, whatever the scene.
@@ -77,12 +83,13 @@ void expect_interface(const std::filesystem::path& results) {
   }
   EXPECT_NEAR(stages, s["seconds"]["total"].get<double>(), 1e-12);
   Keys question = keys(s["scene"]);
-  for (const std::string more :
-       {"at", "body", "ceiling", "edge", "layer load", "layer stiffness", "layer thickness", "model"})
+  for (const std::string more : {"at", "body", "ceiling", "edge", "layer load", "layer stiffness",
+                                 "layer thickness", "model"})
     question.erase(more);
   EXPECT_EQ(question, (Keys{"title", "load", "layer", "gap", "mesh", "method", "version"}));
-  EXPECT_EQ(keys(s["kkt"]),
-            has_contact ? (Keys{"min_gap", "min_pressure", "complementarity", "residual"}) : Keys{"residual"});
+  EXPECT_EQ(keys(s["kkt"]), has_contact
+                                ? (Keys{"min_gap", "min_pressure", "complementarity", "residual"})
+                                : Keys{"residual"});
   EXPECT_LE(s["kkt"]["residual"].get<double>(), 1e-9);
 
   // one row an unknown, the clamped ones too; the mesh file is the mesh that was used
@@ -90,13 +97,15 @@ void expect_interface(const std::filesystem::path& results) {
   const std::string mesh_text = contents(results / "mesh.msh");
   if (mesh_text.find("\"free\"") != mesh_text.npos) groups.curves["free"] = EdgeTag::free;
   for (int k = 0; const auto& edge : s["scene"].value("edge", nlohmann::json::array()))
-    groups.curves[edge["group"]] = edge.contains("displacement") ? dirichlet_group(k++) : natural_group(k++);
+    groups.curves[edge["group"]] =
+        edge.contains("displacement") ? dirichlet_group(k++) : natural_group(k++);
   const TriangleMesh mesh = read_msh((results / "mesh.msh").string(), groups);
   const Space space(mesh, element(s["element"]));
   const Csv solution = read_csv(results / "solution.csv");
   EXPECT_EQ(solution.header, vector ? "x,y,u_x,u_y" : "x,y,u");
   ASSERT_EQ(solution.rows.rows(), space.size());
-  // positions and values survive the way through text bit by bit (gmsh's own coordinates may be halved once more)
+  // positions and values survive the way through text bit by bit (gmsh's own coordinates may be
+  // halved once more)
   EXPECT_LE((solution.rows.leftCols(2) - space.dof_coordinates()).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_EQ(solution.rows.rightCols(vector ? 2 : 1).maxCoeff(), s["u_max"].get<double>());
   EXPECT_EQ(solution.rows.rightCols(vector ? 2 : 1).minCoeff(), s["u_min"].get<double>());
@@ -104,7 +113,8 @@ void expect_interface(const std::filesystem::path& results) {
   EXPECT_EQ(s["dofs"].get<int>(), (vector ? 2 : 1) * space.free_count());
 
   const std::string vtu = contents(results / "solution.vtu");
-  const int points = s["element"] == "CR" || vector ? 3 * mesh.triangle_count() : mesh.vertex_count();
+  const int points =
+      s["element"] == "CR" || vector ? 3 * mesh.triangle_count() : mesh.vertex_count();
   EXPECT_NE(vtu.find("NumberOfPoints=\"" + std::to_string(points) + "\""), vtu.npos);
   for (const std::string region : {"body", "layer"})
     EXPECT_EQ(vtu.find("Name=\"" + region + "\"") != vtu.npos, !vector) << region;
@@ -116,7 +126,8 @@ void expect_interface(const std::filesystem::path& results) {
   EXPECT_GE(arrays, 6);
   EXPECT_EQ(vtu.find("format=\"appended\""), vtu.npos);
   const auto& asked = s["scene"]["layer"];
-  EXPECT_EQ(vtu.find("Name=\"p\"") != vtu.npos, !vector && !asked.is_null() && asked["model"] == "scaled");
+  EXPECT_EQ(vtu.find("Name=\"p\"") != vtu.npos,
+            !vector && !asked.is_null() && asked["model"] == "scaled");
   EXPECT_EQ(vtu.find("Name=\"pressure\"") != vtu.npos, has_contact);
 
   if (!has_contact) {
@@ -146,7 +157,8 @@ TEST_P(ExampleScenes, RunAndKeepTheInterface) {
   const TemporaryFolder folder;
   const std::string path = std::string(EXAMPLE_SCENES) + "/" + GetParam() + ".toml";
   EXPECT_TRUE(contents(path).starts_with("# ")) << "the first line says what the scene is for";
-  const Outcome outcome = run_scene(in_shell(path) + " --out " + in_shell(folder / "new/results"), folder);
+  const Outcome outcome =
+      run_scene(in_shell(path) + " --out " + in_shell(folder / "new/results"), folder);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   expect_interface(folder / "new/results");
@@ -165,13 +177,15 @@ INSTANTIATE_TEST_SUITE_P(All, ExampleScenes, testing::ValuesIn(example_names()),
 TEST(ExampleScenes, AreADozenOrMore) { EXPECT_GE(example_names().size(), 12U); }
 
 // Every layer x contact x mesh x element of the family.
-class EveryCombination : public testing::TestWithParam<std::tuple<int, bool, std::string, std::string>> {};
+class EveryCombination
+    : public testing::TestWithParam<std::tuple<int, bool, std::string, std::string>> {};
 
 TEST_P(EveryCombination, RunsAndKeepsTheInterface) {
   const auto [layer_kind, with_contact, mesh, element] = GetParam();
   const std::array<std::string, 5> layers = {"", layer("0.01"), layer("0"), layer("0", "ventcel"),
                                              layer("0.125", "thin")};
-  const SceneRun run(scene(layers[layer_kind] + (with_contact ? contact : ""), "kind = \"" + mesh + "\"\ncells = 8",
+  const SceneRun run(scene(layers[layer_kind] + (with_contact ? contact : ""),
+                           "kind = \"" + mesh + "\"\ncells = 8",
                            "element = \"" + element + "\"\n"));
   const bool scaled = layer_kind == 1 || layer_kind == 2, ventcel = layer_kind == 3;
   if ((mesh == "layered" && !scaled) || (element == "P2" && ventcel)) {
@@ -194,21 +208,26 @@ INSTANTIATE_TEST_SUITE_P(All, EveryCombination,
 
 TEST(Results, NameTheWholeQuestion) {
   const SceneRun run("title = \"a title\"\n" +
-                     scene(layer("1e-3") + "[contact]\ngap = \"0.01*x\"\n", structured(8), cr + "tolerance = 1e-9\n"));
+                     scene(layer("1e-3") + "[contact]\ngap = \"0.01*x\"\n", structured(8),
+                           cr + "tolerance = 1e-9\n"));
   const auto asked = run.summary()["scene"];
   EXPECT_EQ(asked["title"], "a title");
   EXPECT_EQ(asked["load"], "10*sin(2*pi*x)");
   EXPECT_EQ(asked["layer"], (nlohmann::json{{"epsilon", 1e-3}, {"model", "scaled"}}));
   EXPECT_EQ(asked["gap"], "0.01*x");
   EXPECT_EQ(asked["mesh"], (nlohmann::json{{"kind", "structured"}, {"cells", 8}}));
-  EXPECT_EQ(asked["method"], (nlohmann::json{{"element", "CR"}, {"solver", "active-set"}, {"tolerance", 1e-9}}));
+  EXPECT_EQ(asked["method"],
+            (nlohmann::json{{"element", "CR"}, {"solver", "active-set"}, {"tolerance", 1e-9}}));
   EXPECT_TRUE(std::isdigit(asked["version"].get<std::string>().front()));
-  const SceneRun from_file(scene("", "kind = \"file\"\nfile = \"" + (run.results / "mesh.msh").string() + "\""));
+  const SceneRun from_file(
+      scene("", "kind = \"file\"\nfile = \"" + (run.results / "mesh.msh").string() + "\""));
   EXPECT_EQ(from_file.outcome.status, 2);  // it has a layer
   const SceneRun plain(scene("", structured(4)));
-  const SceneRun again(scene("", "kind = \"file\"\nfile = \"" + (plain.results / "mesh.msh").string() + "\""));
+  const SceneRun again(
+      scene("", "kind = \"file\"\nfile = \"" + (plain.results / "mesh.msh").string() + "\""));
   const auto told = again.summary()["scene"];
-  EXPECT_EQ(told["mesh"], (nlohmann::json{{"kind", "file"}, {"file", (plain.results / "mesh.msh").string()}}));
+  EXPECT_EQ(told["mesh"],
+            (nlohmann::json{{"kind", "file"}, {"file", (plain.results / "mesh.msh").string()}}));
   EXPECT_TRUE(told["layer"].is_null() && told["gap"].is_null());
 }
 
@@ -230,7 +249,8 @@ nlohmann::json blas_used(const std::vector<std::pair<std::string, const char*>>&
   return run.summary()["blas"];
 }
 
-// OpenBLAS takes the kernels that OPENBLAS_CORETYPE names, and any x86-64 executes those of Prescott.
+// OpenBLAS takes the kernels that OPENBLAS_CORETYPE names, and any x86-64 executes those of
+// Prescott.
 TEST(Results, NameTheKernelsInUse) {
   if (blas().kernel.empty()) GTEST_SKIP() << "another BLAS than OpenBLAS";
   const auto used = blas_used({{"OPENBLAS_CORETYPE", "Prescott"}});
@@ -241,15 +261,17 @@ TEST(Results, NameTheKernelsInUse) {
 
 TEST(Results, AProgramOfAYoungCpuStartsAgainWithWiderKernelsUnlessToldNotTo) {
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)  // which is preloaded itself
-  if (blas().kernel.empty() || !__builtin_cpu_supports("avx")) GTEST_SKIP() << "no kernels wider than the oldest";
-  const auto used =
-      blas_used({{"LD_PRELOAD", OLD_OPENBLAS}, {"OPENBLAS_CORETYPE", nullptr}, {"OPENBLAS_NUM_THREADS", nullptr}});
+  if (blas().kernel.empty() || !__builtin_cpu_supports("avx"))
+    GTEST_SKIP() << "no kernels wider than the oldest";
+  const auto used = blas_used({{"LD_PRELOAD", OLD_OPENBLAS},
+                               {"OPENBLAS_CORETYPE", nullptr},
+                               {"OPENBLAS_NUM_THREADS", nullptr}});
   EXPECT_NE(used["kernel"], "Prescott");
   EXPECT_EQ(used["threads"], 1);
-  EXPECT_EQ(
-      blas_used(
-          {{"LD_PRELOAD", OLD_OPENBLAS}, {"OPENBLAS_CORETYPE", nullptr}, {"ANTILOCK_KEEP_KERNELS", "1"}})["kernel"],
-      "Prescott");
+  EXPECT_EQ(blas_used({{"LD_PRELOAD", OLD_OPENBLAS},
+                       {"OPENBLAS_CORETYPE", nullptr},
+                       {"ANTILOCK_KEEP_KERNELS", "1"}})["kernel"],
+            "Prescott");
 #else
   GTEST_SKIP() << "known of x86-64 alone, and not under AddressSanitizer";
 #endif
@@ -260,13 +282,15 @@ TEST(Results, SecondsAddUpToTheWallTime) {
   const SceneRun run(scene(layer("1e-3") + contact, unstructured(64), cr));
   const double seconds = wall.seconds(), total = run.summary()["seconds"]["total"];
   EXPECT_LE(total, seconds);
-  EXPECT_GE(total, 0.8 * seconds - 0.2) << "of " << seconds;  // the process starts and ends outside of it
+  EXPECT_GE(total, 0.8 * seconds - 0.2)
+      << "of " << seconds;  // the process starts and ends outside of it
   EXPECT_GT(run.summary()["seconds"]["files"].get<double>(), 0);
 }
 
 TEST(Results, AToleranceIsTakenAtItsWord) {
   const auto corrections = [](const std::string& tolerance) {
-    const SceneRun run(scene(layer("1e-6") + contact, unstructured(32), "tolerance = " + tolerance + "\n"));
+    const SceneRun run(
+        scene(layer("1e-6") + contact, unstructured(32), "tolerance = " + tolerance + "\n"));
     EXPECT_EQ(run.outcome.status, 0) << run.outcome.err;
     return run.summary()["iterations"]["corrections"].get<int>();
   };
@@ -282,40 +306,49 @@ TEST(Warnings, ALoadThatTheQuadratureMissesIsFound) {
     EXPECT_NE(run.summary()["warning"].get<std::string>().find("load.f"), std::string::npos) << f;
     EXPECT_NE(run.outcome.out.find("warning: load.f"), std::string::npos) << f;
   }
-  for (const std::string f : {"0", "1", "10*sin(2*pi*x)", "10*sin(2*pi*x)*exp(y)", "x < 0.3 ? 20 : -20"}) {
+  for (const std::string f :
+       {"0", "1", "10*sin(2*pi*x)", "10*sin(2*pi*x)*exp(y)", "x < 0.3 ? 20 : -20"}) {
     const SceneRun run(scene(layer("1e-3") + contact, structured(8), cr, f));
     EXPECT_EQ(run.summary()["warning"], "") << f;
   }
 }
 
-// Three discs of force between the points of the rule, in balance: no force, no moment, u = 0 by the quadrature and -7 in
-// truth. And a wave that turns four times in a cell.
+// Three discs of force between the points of the rule, in balance: no force, no moment, u = 0 by
+// the quadrature and -7 in truth. And a wave that turns four times in a cell.
 TEST(Warnings, ALoadWithoutForceOrMomentIsFoundBetweenThePoints) {
   const auto disc = [](int weight, double x, double y) {
     return fmt::format("{}*((x - {})^2 + (y - {})^2 < 0.003 ? 1000 : 0)", weight, x, y);
   };
-  const std::string discs =
-      disc(1, 0.6705427, 0.9223774) + " + " + disc(-2, 0.4164415, 0.6715546) + " + " + disc(1, 0.1623403, 0.4207318);
-  for (const auto& [f, cells] : {std::pair(discs, 4), std::pair(std::string("100*sin(64*pi*x)"), 8)}) {
+  const std::string discs = disc(1, 0.6705427, 0.9223774) + " + " + disc(-2, 0.4164415, 0.6715546) +
+                            " + " + disc(1, 0.1623403, 0.4207318);
+  for (const auto& [f, cells] :
+       {std::pair(discs, 4), std::pair(std::string("100*sin(64*pi*x)"), 8)}) {
     const SceneRun run(scene(layer("1e-3"), structured(cells), "", f));
-    EXPECT_NE(run.summary()["warning"].get<std::string>().find("between its points"), std::string::npos) << f;
+    EXPECT_NE(run.summary()["warning"].get<std::string>().find("between its points"),
+              std::string::npos)
+        << f;
   }
 }
 
 // s / t^2 = 1, s = 1e-6: CR's u is 13 times the largest one of P2. The maximum principle tells.
 TEST(Warnings, ALayerSoSoftAlongXThatCrouzeixRaviartIsWrongInItIsNamed) {
-  for (const auto& [method, wrong] : {std::pair(cr, true), {std::string("element = \"P2\""), false}}) {
+  for (const auto& [method, wrong] :
+       {std::pair(cr, true), {std::string("element = \"P2\""), false}}) {
     const SceneRun run(
-        scene("[layer]\nthickness = 1e-3\nstiffness = 1e-3\nload = \"0\"\n" + contact, unstructured(32), method));
-    EXPECT_EQ(run.summary()["warning"].get<std::string>().find("beyond the values around it") != std::string::npos,
+        scene("[layer]\nthickness = 1e-3\nstiffness = 1e-3\nload = \"0\"\n" + contact,
+              unstructured(32), method));
+    EXPECT_EQ(run.summary()["warning"].get<std::string>().find("beyond the values around it") !=
+                  std::string::npos,
               wrong);
   }
 }
 
-/// The share of the energy that the layer's motion releases which P1 loses on an unstructured mesh, by two more solves: on
-/// the same body with a layer in columns, and at epsilon = 0, where P1 holds the layer still. 31 % by gmsh 4.8.
+/// The share of the energy that the layer's motion releases which P1 loses on an unstructured mesh,
+/// by two more solves: on the same body with a layer in columns, and at epsilon = 0, where P1 holds
+/// the layer still. 31 % by gmsh 4.8.
 double lost_by_p1(int cells, double epsilon) {
-  const TriangleMesh mesh = unstructured_mesh(cells), columns = extruded(body_submesh(mesh), epsilon);
+  const TriangleMesh mesh = unstructured_mesh(cells),
+                     columns = extruded(body_submesh(mesh), epsilon);
   const auto energy_on = [](const TriangleMesh& on, double eps) {
     const Space space(on, p1());
     const VariationalInequality problem = assemble(stiff_scene(eps), space);
@@ -325,48 +358,57 @@ double lost_by_p1(int cells, double epsilon) {
   return (energy_on(mesh, epsilon) - best) / (energy_on(mesh, 0) - best);
 }
 
-// Figure 7 says of itself what Figure 8 shows, on the terminal and in the summary, with the remedies; they are some.
+// Figure 7 says of itself what Figure 8 shows, on the terminal and in the summary, with the
+// remedies; they are some.
 TEST(Warnings, ALayerThatLocksIsNamedWithWhatIsLost) {
-  const auto asked = [](const std::string& epsilon, const std::string& kind, const std::string& method) -> SceneRun {
+  const auto asked = [](const std::string& epsilon, const std::string& kind,
+                        const std::string& method) -> SceneRun {
     return SceneRun(scene(layer(epsilon) + contact, "kind = \"" + kind + "\"\ncells = 32", method));
   };
   const double lost = lost_by_p1(32, 1e-2);
   EXPECT_GT(lost, 0.1);
   for (const std::string solver : {"active-set", "uzawa"}) {
-    const SceneRun run = asked("1e-2", "unstructured", "solver = \"" + solver + "\"\ntolerance = 1e-6");
+    const SceneRun run =
+        asked("1e-2", "unstructured", "solver = \"" + solver + "\"\ntolerance = 1e-6");
     const auto s = run.summary();
     const double told = s["locking"]["lost_energy"];
-    EXPECT_NE(s["warning"].get<std::string>().find(
-                  fmt::format("P1 locks in this layer: it loses at least {:.0f} %", std::floor(100 * told))),
+    EXPECT_NE(s["warning"].get<std::string>().find(fmt::format(
+                  "P1 locks in this layer: it loses at least {:.0f} %", std::floor(100 * told))),
               std::string::npos);
     EXPECT_NE(run.outcome.out.find("  warning: P1 locks"), std::string::npos) << run.outcome.out;
-    // what a layer constant in y does not reach: (2 pi epsilon)^2 / 3 for one wave, four times that for two
+    // what a layer constant in y does not reach: (2 pi epsilon)^2 / 3 for one wave, four times that
+    // for two
     EXPECT_NEAR(told, lost, 5e-3);
     EXPECT_EQ(s["locking"]["kept"].get<double>() + told, 1);
   }
-  for (const auto& [epsilon, kind, method] : std::vector<std::array<std::string, 3>>{{"1e-2", "unstructured", cr},
-                                                                                     {"1e-2", "layered", ""},
-                                                                                     {"1e-2", "structured", ""},
-                                                                                     {"0.3", "unstructured", ""}})
+  for (const auto& [epsilon, kind, method] :
+       std::vector<std::array<std::string, 3>>{{"1e-2", "unstructured", cr},
+                                               {"1e-2", "layered", ""},
+                                               {"1e-2", "structured", ""},
+                                               {"0.3", "unstructured", ""}})
     EXPECT_EQ(asked(epsilon, kind, method).summary()["warning"], "") << epsilon << kind << method;
 }
 
 TEST(Warnings, AnObstacleBetweenTheContactUnknownsIsFound) {
   for (const std::string& mesh : {structured(8), unstructured(8)})
     for (const std::string bound : {"gap = \"0.01", "gap = \"1\"\nceiling = \"0.01"}) {
-      const SceneRun run(scene(layer("1e-3") + "[contact]\n" + bound + " - exp(-1e8*(x - 0.4567)^2)\"\n", mesh, cr));
-      EXPECT_NE(run.summary()["warning"].get<std::string>().find("misses the obstacle"), std::string::npos) << bound;
+      const SceneRun run(scene(
+          layer("1e-3") + "[contact]\n" + bound + " - exp(-1e8*(x - 0.4567)^2)\"\n", mesh, cr));
+      EXPECT_NE(run.summary()["warning"].get<std::string>().find("misses the obstacle"),
+                std::string::npos)
+          << bound;
     }
   for (const std::string element : {"P1", "CR", "P2"}) {
-    const SceneRun run(scene(layer("0.05") + "[contact]\ngap = \"0.02 - 0.1*exp(-50*(x - 0.5)^2)\"\n", structured(32),
-                             "element = \"" + element + "\"\n", "1"));
+    const SceneRun run(
+        scene(layer("0.05") + "[contact]\ngap = \"0.02 - 0.1*exp(-50*(x - 0.5)^2)\"\n",
+              structured(32), "element = \"" + element + "\"\n", "1"));
     EXPECT_EQ(run.summary()["warning"], "") << element;
   }
 }
 
 TEST(Results, TheContactForceBalancesTheExactOne) {
-  // CR, 1/h = 64: the pressure is a density, so its sum over cells of length h is the whole force; the exact pressure
-  // integrates to it up to the O(h) of the two ends of the contact zone.
+  // CR, 1/h = 64: the pressure is a density, so its sum over cells of length h is the whole force;
+  // the exact pressure integrates to it up to the O(h) of the two ends of the contact zone.
   const SceneRun run(scene(layer("1e-2") + contact, structured(64), cr));
   ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
   const Csv table = read_csv(run.results / "contact.csv");
@@ -376,11 +418,13 @@ TEST(Results, TheContactForceBalancesTheExactOne) {
   for (int i = 0; i < n; ++i) exact += exact_solution.pressure((i + 0.5) / n) / n;
   EXPECT_NEAR(table.rows.col(2).sum() / 64, exact, 0.02 * exact);
   EXPECT_NEAR(run.summary()["contact"]["from"].get<double>(), 0.69753, 1.5 / 64);
-  EXPECT_NEAR(run.summary()["energy"].get<double>(), -0.44157558, 3e-4);  // 1.8e-4 off at 1/h = 64, falling like h^2
+  EXPECT_NEAR(run.summary()["energy"].get<double>(), -0.44157558,
+              3e-4);  // 1.8e-4 off at 1/h = 64, falling like h^2
 }
 
 TEST(Results, AnObstacleThatPressesInIsObeyed) {
-  const SceneRun run(scene(layer("0.05") + "[contact]\ngap = \"-0.05*sin(pi*x)\"\n", structured(32), "", "0"));
+  const SceneRun run(
+      scene(layer("0.05") + "[contact]\ngap = \"-0.05*sin(pi*x)\"\n", structured(32), "", "0"));
   EXPECT_NEAR(run.summary()["u_max"].get<double>(), 0.05, 1e-3);
 }
 
@@ -388,8 +432,8 @@ TEST(Results, AnObstacleFarAwayInOnePlaceHidesNoContactInAnother) {
   double near_energy = 0;
   for (const std::string solver : {"active-set", "uzawa"})
     for (const std::string far : {"1", "1e6", "1e14", "1e90"}) {
-      const SceneRun run(scene(layer("0.1") + "[contact]\ngap = \"x < 0.75 ? " + far + " : 0\"\n", structured(16),
-                               "solver = \"" + solver + "\"\n"));
+      const SceneRun run(scene(layer("0.1") + "[contact]\ngap = \"x < 0.75 ? " + far + " : 0\"\n",
+                               structured(16), "solver = \"" + solver + "\"\n"));
       EXPECT_EQ(run.summary()["contact"]["from"].get<double>(), 0.75) << solver << " " << far;
       EXPECT_EQ(run.summary()["solver"], solver);
       EXPECT_EQ(run.summary()["iterations"]["contact"].get<int>() > 10, solver == "uzawa");
@@ -402,21 +446,27 @@ TEST(Results, AnObstacleFarAwayInOnePlaceHidesNoContactInAnother) {
 TEST(Results, AreThoseThatAreAskedForAndThoseOfAnEarlierRunGo) {
   const SceneRun whole(scene(layer("1e-3") + contact, structured(4)));
   const auto again = [&](const std::string& files) {
-    return run_scene(in_shell(whole.scene_path) + " --out " + in_shell(whole.results.string()) + " --files " + files,
+    return run_scene(in_shell(whole.scene_path) + " --out " + in_shell(whole.results.string()) +
+                         " --files " + files,
                      whole.output);
   };
   // those of an earlier run on several ranks are no picture of this one
-  for (const std::string name : {"solution.pvtu", "solution_0.vtu", "solution_1.vtu", "other_0.vtu"})
+  for (const std::string name :
+       {"solution.pvtu", "solution_0.vtu", "solution_1.vtu", "other_0.vtu"})
     std::ofstream(whole.results / name) << "earlier";
   const Outcome refused = again("csv,pdf");
   EXPECT_EQ(refused.status, 2);
-  EXPECT_EQ(refused.err, "--files: \"pdf\" is none of the files; accepted: summary, csv, mesh, vtu, with commas\n");
+  EXPECT_EQ(
+      refused.err,
+      "--files: \"pdf\" is none of the files; accepted: summary, csv, mesh, vtu, with commas\n");
   EXPECT_EQ(files(whole.results).size(), 9U);
   EXPECT_EQ(again("mesh,csv").status, 0);
-  EXPECT_EQ(files(whole.results), (Keys{"summary.json", "solution.csv", "contact.csv", "mesh.msh", "other_0.vtu"}));
+  EXPECT_EQ(files(whole.results),
+            (Keys{"summary.json", "solution.csv", "contact.csv", "mesh.msh", "other_0.vtu"}));
   EXPECT_EQ(again("summary").status, 0);
   EXPECT_EQ(files(whole.results), (Keys{"summary.json", "other_0.vtu"}));
-  for (const std::string name : {"solution.pvtu", "solution_0.vtu"}) std::ofstream(whole.results / name) << "earlier";
+  for (const std::string name : {"solution.pvtu", "solution_0.vtu"})
+    std::ofstream(whole.results / name) << "earlier";
   EXPECT_EQ(again("vtu").status, 0);
   EXPECT_EQ(files(whole.results), (Keys{"summary.json", "solution.vtu", "other_0.vtu"}));
 }
@@ -426,8 +476,11 @@ TEST(Results, OfAnEarlierSceneAreReplacedAndTheTableOfAnAbsentContactGoes) {
   std::ofstream(folder / "with.toml") << scene(contact, structured(8));
   std::ofstream(folder / "without.toml") << scene("", structured(8));
   for (const std::string name : {"with", "without"})
-    ASSERT_EQ(run_scene(in_shell(folder / (name + ".toml")) + " --out " + in_shell(folder / "results"), folder).status,
-              0);
+    ASSERT_EQ(
+        run_scene(in_shell(folder / (name + ".toml")) + " --out " + in_shell(folder / "results"),
+                  folder)
+            .status,
+        0);
   expect_interface(folder / "results");
 }
 
@@ -446,8 +499,8 @@ TEST(Results, OfAFailedRunLeaveEarlierOnesAlone) {
 TEST(Results, GoToAFolderNamedAfterTheSceneWhereNoneIsGiven) {
   const TemporaryFolder folder;
   std::ofstream(folder / "mine.toml") << scene("", structured(4));
-  const std::string command =
-      "cd " + in_shell(folder.path().string()) + " && " + in_shell(RUN_SCENE) + " mine.toml >/dev/null";
+  const std::string command = "cd " + in_shell(folder.path().string()) + " && " +
+                              in_shell(RUN_SCENE) + " mine.toml >/dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0);
   expect_interface(folder / "results/mine");
 }
@@ -455,19 +508,23 @@ TEST(Results, GoToAFolderNamedAfterTheSceneWhereNoneIsGiven) {
 TEST(Results, TheMeshOfARunServesAsAMeshFile) {
   const SceneRun first(scene(layer("1e-3") + contact, unstructured(8), cr));
   const SceneRun second(
-      scene(layer("1e-3") + contact, "kind = \"file\"\nfile = \"" + (first.results / "mesh.msh").string() + "\"", cr));
-  // the same mesh, numbered the same way; gmsh's columns, off by 4e-13 at most, are made vertical where a file is read
-  EXPECT_NEAR(second.summary()["energy"].get<double>(), first.summary()["energy"].get<double>(), 1e-11);
+      scene(layer("1e-3") + contact,
+            "kind = \"file\"\nfile = \"" + (first.results / "mesh.msh").string() + "\"", cr));
+  // the same mesh, numbered the same way; gmsh's columns, off by 4e-13 at most, are made vertical
+  // where a file is read
+  EXPECT_NEAR(second.summary()["energy"].get<double>(), first.summary()["energy"].get<double>(),
+              1e-11);
 }
 
 TEST(Unreachable, ToleranceIsSaidInOneLineAndNothingIsWritten) {
   using Question = std::pair<std::string, std::string>;
   const std::string far = "tolerance = 1e-30\n";
-  for (const auto& [effects, method] : {Question{"", far},
-                                        {layer("1e-6"), far},
-                                        {layer("0") + contact, far},
-                                        {layer("0", "ventcel") + contact, far},
-                                        {layer("1e-3") + contact, "solver = \"uzawa\"\ntolerance = 1e-16\n"}}) {
+  for (const auto& [effects, method] :
+       {Question{"", far},
+        {layer("1e-6"), far},
+        {layer("0") + contact, far},
+        {layer("0", "ventcel") + contact, far},
+        {layer("1e-3") + contact, "solver = \"uzawa\"\ntolerance = 1e-16\n"}}) {
     const SceneRun run(scene(effects, structured(8), method));
     expect_no_answer(run, run.scene_path + ": solve: ", 3);
     EXPECT_TRUE(run.outcome.err.starts_with(run.scene_path + ": solve: "));
@@ -477,8 +534,9 @@ TEST(Unreachable, ToleranceIsSaidInOneLineAndNothingIsWritten) {
 TEST(Unreachable, TimeLimitEndsTheSolveAndSaysHowFarItCame) {
   const TemporaryFolder folder;
   std::ofstream(folder / "scene.toml") << scene(layer("1e-6") + contact, structured(16));
-  const Outcome outcome =
-      run_scene(in_shell(folder / "scene.toml") + " --most-seconds 0 --out " + in_shell(folder / "results"), folder);
+  const Outcome outcome = run_scene(
+      in_shell(folder / "scene.toml") + " --most-seconds 0 --out " + in_shell(folder / "results"),
+      folder);
   EXPECT_EQ(outcome.status, 3);
   EXPECT_NE(outcome.err.find("stopped as asked after 1 steps"), std::string::npos) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "results"));
@@ -488,8 +546,8 @@ TEST(Help, TellsANewcomerEverySectionAndFile) {
   const TemporaryFolder log;
   const Outcome outcome = run_scene("--help", log);
   EXPECT_EQ(outcome.status, 0);
-  for (const std::string word :
-       {"[load]", "[layer]", "[contact]", "[mesh]", "[method]", "summary.json", "solution.csv", "--out"})
+  for (const std::string word : {"[load]", "[layer]", "[contact]", "[mesh]", "[method]",
+                                 "summary.json", "solution.csv", "--out"})
     EXPECT_NE(outcome.out.find(word), outcome.out.npos) << word;
 }
 

@@ -13,15 +13,18 @@ namespace antilock::test {
 namespace {
 
 Outcome run(const std::string& program, const std::string& arguments, const TemporaryFolder& log) {
-  const std::string command =
-      in_shell(program) + " " + arguments + " >" + in_shell(log / "out") + " 2>" + in_shell(log / "err");
+  const std::string command = in_shell(program) + " " + arguments + " >" + in_shell(log / "out") +
+                              " 2>" + in_shell(log / "err");
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log / "out"), contents(log / "err")};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log / "out"),
+          contents(log / "err")};
 }
 
 }  // namespace
 
-Outcome run_scene(const std::string& arguments, const TemporaryFolder& log) { return run(RUN_SCENE, arguments, log); }
+Outcome run_scene(const std::string& arguments, const TemporaryFolder& log) {
+  return run(RUN_SCENE, arguments, log);
+}
 Outcome run_antilock(const std::string& arguments, const TemporaryFolder& log) {
   return run(ANTILOCK_PROGRAM, arguments, log);
 }
@@ -55,7 +58,8 @@ Csv read_csv(const std::filesystem::path& path) {
   for (std::string line; std::getline(text, line);) {
     rows.emplace_back();
     std::istringstream fields(line);
-    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(std::stod(field));
+    for (std::string field; std::getline(fields, field, ',');)
+      rows.back().push_back(std::stod(field));
   }
   const auto columns = rows.empty() ? 0 : rows.front().size();
   csv.rows.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));

@@ -17,16 +17,19 @@ struct Outcome {
 
 inline std::string in_shell(const std::string& text) { return "'" + text + "'"; }
 
-/// Runs run_scene with the given arguments (already quoted), its output caught beside `folder`'s results.
+/// Runs run_scene with the given arguments (already quoted), its output caught beside `folder`'s
+/// results.
 Outcome run_scene(const std::string& arguments, const TemporaryFolder& log);
 /// The same of antilock, the program with subcommands.
 Outcome run_antilock(const std::string& arguments, const TemporaryFolder& log);
 
-/// A scene text, run in a folder of its own: the scene file alone stands in `input`, the results go to `results`.
+/// A scene text, run in a folder of its own: the scene file alone stands in `input`, the results go
+/// to `results`.
 class SceneRun {
  public:
   explicit SceneRun(const std::string& scene, const std::string& file = "scene.toml");
-  nlohmann::json summary() const;  ///< of a run that ended well; who reads it includes nlohmann/json.hpp
+  nlohmann::json summary()
+      const;  ///< of a run that ended well; who reads it includes nlohmann/json.hpp
 
   TemporaryFolder input, output;
   std::string scene_path;

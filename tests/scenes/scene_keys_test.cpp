@@ -16,7 +16,9 @@ namespace antilock::test::scene_keys_test {
 
 using Type = SceneKey::Type;
 
-bool is_section(const SceneKey& key) { return key.type == Type::section || key.type == Type::sections; }
+bool is_section(const SceneKey& key) {
+  return key.type == Type::section || key.type == Type::sections;
+}
 
 /// What must stand before a key of a section, so that nothing else is refused first.
 std::string lines_before(const SceneKey& key) {
@@ -35,7 +37,8 @@ std::string lines_before(const SceneKey& key) {
 
 /// A scene with `key = value`.
 std::string scene_with(const SceneKey& key, const std::string& value) {
-  std::map<std::string, std::string> sections{{"load", "f = \"1\"\n"}, {"mesh", "kind = \"structured\"\ncells = 8\n"}};
+  std::map<std::string, std::string> sections{{"load", "f = \"1\"\n"},
+                                              {"mesh", "kind = \"structured\"\ncells = 8\n"}};
   if (key.models == std::vector<std::string>{"coating"}) sections["layer"] = "epsilon = 0.1\n";
   const std::string line = key.name + " = " + value + "\n";
   std::string scene;
@@ -59,16 +62,20 @@ std::string wrong_value(const SceneKey& key) {
 /// The end of the message that refuses such a value; empty where the reader has words of its own.
 std::string end_of_refusal(const SceneKey& key) {
   if (is_section(key) || key.type == Type::count || key.name == "thickness") return "";
-  if (key.type == Type::choice) return fmt::format("; accepted: \"{}\"", fmt::join(key.choices, "\", \""));
+  if (key.type == Type::choice)
+    return fmt::format("; accepted: \"{}\"", fmt::join(key.choices, "\", \""));
   return (key.type == Type::number ? "; accepted: a number, " : "; accepted: ") + key.accepted;
 }
 
 // A key that the table has and that nothing reads would be taken with any value.
 TEST(SceneKeys, EachIsReadAndRefusedAsItsRowSays) {
   for (const SceneKey& key : scene_keys()) {
-    const std::string where = key.section + (key.section == "edge" ? "[0]" : "") + (key.section.empty() ? "" : ".");
-    const std::string message = refusal([&] { read_scene(scene_with(key, wrong_value(key)), "scene.toml"); });
-    EXPECT_TRUE(message.starts_with("scene.toml: " + where + key.name + ": ")) << key.name << ": " << message;
+    const std::string where =
+        key.section + (key.section == "edge" ? "[0]" : "") + (key.section.empty() ? "" : ".");
+    const std::string message =
+        refusal([&] { read_scene(scene_with(key, wrong_value(key)), "scene.toml"); });
+    EXPECT_TRUE(message.starts_with("scene.toml: " + where + key.name + ": "))
+        << key.name << ": " << message;
     EXPECT_TRUE(message.ends_with(end_of_refusal(key))) << message;
   }
 }
@@ -79,14 +86,18 @@ TEST(SceneKeys, ARangeIsThatOfItsRow) {
     const auto read = [&](double value) {
       const bool whole = key.type == Type::count;
       return refusal([&] {
-        read_scene(scene_with(key, whole ? fmt::format("{:.0f}", value) : fmt::format("{:.17g}", value)), "scene.toml");
+        read_scene(
+            scene_with(key, whole ? fmt::format("{:.0f}", value) : fmt::format("{:.17g}", value)),
+            "scene.toml");
       });
     };
     const auto& [least, most, above, below, whole] = *key.range;
     const std::string words = "is out of range; accepted: ";
     for (const double value : {least - 1, most * 1.1 + 1})
-      EXPECT_NE(read(value).find(words), std::string::npos) << key.name << " = " << value << ": " << read(value);
-    EXPECT_EQ(read(least).find(words) != std::string::npos, above) << key.name << ": " << read(least);
+      EXPECT_NE(read(value).find(words), std::string::npos)
+          << key.name << " = " << value << ": " << read(value);
+    EXPECT_EQ(read(least).find(words) != std::string::npos, above)
+        << key.name << ": " << read(least);
     EXPECT_EQ(key.range->holds(most), !below) << key.name;
     EXPECT_EQ(key.range->holds(least + 0.5), !whole && least + 0.5 <= most) << key.name;
   }
@@ -97,7 +108,9 @@ TEST(SceneKeys, TheDefaultsAreThoseOfTheStructures) {
   const auto of = [](const std::string& section, const std::string& name) {
     return scene_key(section, name).otherwise.value_or("none");
   };
-  const auto number = [&](const std::string& section, const std::string& name) { return std::stod(of(section, name)); };
+  const auto number = [&](const std::string& section, const std::string& name) {
+    return std::stod(of(section, name));
+  };
   const MethodRequest method;
   EXPECT_EQ(of("method", "element"), method.element);
   EXPECT_EQ(of("method", "solver"), method.solver);
@@ -113,7 +126,8 @@ TEST(SceneKeys, TheDefaultsAreThoseOfTheStructures) {
 TEST(SceneKeys, TheHelpHasThemAll) {
   const TemporaryFolder log;
   const std::string help = scene_keys_help();
-  EXPECT_NE(run_scene("--help", log).out.find(help), std::string::npos) << "run_scene --help does not hold the table";
+  EXPECT_NE(run_scene("--help", log).out.find(help), std::string::npos)
+      << "run_scene --help does not hold the table";
   for (const SceneKey& key : scene_keys()) {
     const std::string words = is_section(key) ? "[" + key.name + "]" : key.name + " = ";
     EXPECT_NE(help.find(words), std::string::npos) << words;
@@ -153,14 +167,16 @@ std::string howto_table() {
   for (const SceneKey& key : scene_keys()) {
     if (is_section(key)) continue;
     const std::string section = key.section.empty() ? "" : "`[" + key.section + "]`";
-    table += fmt::format("| {} | `{}` | {} | {} | {} |\n", key.section == "edge" ? "`[[edge]]`" : section, key.name,
-                         value_of(key), default_of(key), key.does);
+    table += fmt::format("| {} | `{}` | {} | {} | {} |\n",
+                         key.section == "edge" ? "`[[edge]]`" : section, key.name, value_of(key),
+                         default_of(key), key.does);
   }
   return table;
 }
 
 TEST(SceneKeys, TheHowToHasThisTable) {
-  EXPECT_NE(contents(EXAMPLE_SCENES "/../guides/howto_scene.md").find("\n" + howto_table()), std::string::npos)
+  EXPECT_NE(contents(EXAMPLE_SCENES "/../guides/howto_scene.md").find("\n" + howto_table()),
+            std::string::npos)
       << "tutorials/guides/howto_scene.md holds another table; it should be\n"
       << howto_table();
 }

@@ -1,4 +1,5 @@
-// Only what is needed: an absent effect costs nothing, and what a sweep can share it shares. Asserted by counting.
+// Only what is needed: an absent effect costs nothing, and what a sweep can share it shares.
+// Asserted by counting.
 #include "antilock/study/scene_sweep.hpp"
 #include "support/scenes.hpp"
 
@@ -11,7 +12,9 @@ TEST(OnlyWhatIsNeeded, AnAbsentEffectCostsNothing) {
   const TriangleMesh body = structured_mesh(8, {0}), both = structured_mesh(8);
   for (const Element* element : {&p1(), &crouzeix_raviart()}) {
     const Space on_body(body, *element), on_both(both, *element);
-    const auto cost = [](const Scene& scene, const Space& on) { return active_set(assemble(scene, on)).counters; };
+    const auto cost = [](const Scene& scene, const Space& on) {
+      return active_set(assemble(scene, on)).counters;
+    };
     for (const Layer& layer : {Layer(NoLayer{}), Layer(VentcelLayer{})}) {
       const Counters c = cost(Scene({paper_load}, layer), on_body);
       EXPECT_EQ(c.unknowns, on_body.size() - static_cast<int>(on_body.dirichlet_dofs().size()));
@@ -20,7 +23,8 @@ TEST(OnlyWhatIsNeeded, AnAbsentEffectCostsNothing) {
       EXPECT_EQ(c.corrections + c.contact_iterations, 0);
     }
     for (const double gap : {0.0, 1.0}) {
-      const Counters c = cost(Scene({paper_load}, NoLayer{}, UnilateralContact{[=](double) { return gap; }}), on_body);
+      const Counters c = cost(
+          Scene({paper_load}, NoLayer{}, UnilateralContact{[=](double) { return gap; }}), on_body);
       EXPECT_EQ(c.factorisations, 1);
       EXPECT_EQ(c.solves, 1);
       EXPECT_EQ(c.corrections, 0);
@@ -36,7 +40,8 @@ TEST(OnlyWhatIsNeeded, AnAbsentEffectCostsNothing) {
       EXPECT_GT(c.corrections, 0);
       EXPECT_EQ(c.solves, c.corrections + 1);
     }
-    EXPECT_LE(cost(test::stiff_scene(1), on_both).corrections, 1) << "one look that nothing is left";
+    EXPECT_LE(cost(test::stiff_scene(1), on_both).corrections, 1)
+        << "one look that nothing is left";
   }
 }
 
@@ -47,11 +52,14 @@ TEST(OnlyWhatIsNeeded, EdgesAndStiffnessAreIntegratedWhereTheyAre) {
     int load = 0, stiffness = 0, traction = 0, spring = 0, displacement = 0;
   } calls;
   using Kind = BoundaryCondition::Kind;
-  const auto counted = [](int& count) { return [&count](double, double) { return 1.0 + 0 * ++count; }; };
+  const auto counted = [](int& count) {
+    return [&count](double, double) { return 1.0 + 0 * ++count; };
+  };
   const Body bare{counted(calls.load)}, stiff{counted(calls.load), counted(calls.stiffness)};
-  const std::vector<BoundaryCondition> held{{"left", Kind::displacement, counted(calls.displacement)},
-                                            {"right", Kind::traction, counted(calls.traction)},
-                                            {"top", Kind::spring, counted(calls.spring)}};
+  const std::vector<BoundaryCondition> held{
+      {"left", Kind::displacement, counted(calls.displacement)},
+      {"right", Kind::traction, counted(calls.traction)},
+      {"top", Kind::spring, counted(calls.spring)}};
   for (const Layer& layer : {Layer(NoLayer{}), Layer(StiffLayer{1e-3})}) {
     TriangleMesh mesh = structured_mesh(n, {std::holds_alternative<NoLayer>(layer) ? 0.0 : 1.0});
     for (int e = 0; e < mesh.edge_count(); ++e) {
@@ -61,7 +69,8 @@ TEST(OnlyWhatIsNeeded, EdgesAndStiffnessAreIntegratedWhereTheyAre) {
     }
     const Space space(mesh, crouzeix_raviart());
     calls = {};
-    assemble(Scene(bare, layer, {}, {{"left", Kind::displacement, counted(calls.displacement)}, {"right"}, {"top"}}),
+    assemble(Scene(bare, layer, {},
+                   {{"left", Kind::displacement, counted(calls.displacement)}, {"right"}, {"top"}}),
              space);
     const int points = calls.load;
     EXPECT_EQ(calls.stiffness + calls.traction + calls.spring, 0);
@@ -81,7 +90,9 @@ TEST(Sweep, GivesTheAnswersOfScenesSolvedOneByOne) {
   for (const double epsilon : {1.0, 0.1, 1e-3, 1e-6, 0.0, 0.3}) {
     sweep.set_epsilon(epsilon);
     const Scene alone({paper_load}, StiffLayer{epsilon}, UnilateralContact{});
-    EXPECT_LE(test::relative_difference(sweep.solve().u, active_set(assemble(alone, space)).u), same) << epsilon;
+    EXPECT_LE(test::relative_difference(sweep.solve().u, active_set(assemble(alone, space)).u),
+              same)
+        << epsilon;
   }
 }
 
@@ -116,7 +127,8 @@ TEST(Sweep, LoadsShareOneFactorisation) {
     const Solution swept = sweep.solve();
     EXPECT_EQ(swept.counters.factorisations, 0);
     const Scene alone({load}, StiffLayer{1e-3}, UnilateralContact{});
-    EXPECT_LE(test::relative_difference(swept.u, active_set(assemble(alone, space)).u), same) << size;
+    EXPECT_LE(test::relative_difference(swept.u, active_set(assemble(alone, space)).u), same)
+        << size;
   }
 }
 

@@ -14,8 +14,10 @@ namespace {
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-/// Whether bound k can do what `state` says. An infinite bound does nothing, an equation always holds or gives way.
-bool there_is(int state, const LongVector& lower, const LongVector& upper, const LongVector& most, Eigen::Index k) {
+/// Whether bound k can do what `state` says. An infinite bound does nothing, an equation always
+/// holds or gives way.
+bool there_is(int state, const LongVector& lower, const LongVector& upper, const LongVector& most,
+              Eigen::Index k) {
   const bool equation = lower(k) == upper(k);
   if (state == 0 || state == 2) return !equation && (state == 0 || std::isfinite(upper(k)));
   if (state == 1) return std::isfinite(lower(k));
@@ -23,14 +25,16 @@ bool there_is(int state, const LongVector& lower, const LongVector& upper, const
 }
 
 /// The next state that there is for bound k, 5 after the last.
-int next_state(int state, const LongVector& lower, const LongVector& upper, const LongVector& most, Eigen::Index k) {
+int next_state(int state, const LongVector& lower, const LongVector& upper, const LongVector& most,
+               Eigen::Index k) {
   do ++state;
   while (state < 5 && !there_is(state, lower, upper, most, k));
   return state;
 }
 
 /// The next of all sets of states; false after the last.
-bool next_set(std::vector<int>& set, const LongVector& lower, const LongVector& upper, const LongVector& most) {
+bool next_set(std::vector<int>& set, const LongVector& lower, const LongVector& upper,
+              const LongVector& most) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     set[i] = next_state(set[i], lower, upper, most, k);
@@ -66,21 +70,26 @@ BruteForce brute_force(const VariationalInequality& problem) {
   const LongVector force = (problem.load.cast<long double>() - k * u_fixed)(free);
   LongMatrix response = LongMatrix::Zero(n, n);  // displacement for each unit force
   if (!basis.isZero(0))
-    response = basis * LongMatrix(basis.transpose() * k(free, free) * basis).ldlt().solve(basis.transpose());
+    response =
+        basis *
+        LongMatrix(basis.transpose() * k(free, free) * basis).ldlt().solve(basis.transpose());
 
   const int c = problem.bounds.count(), contact = static_cast<int>(problem.bounds.unknowns.size());
   LongMatrix rows = LongMatrix::Zero(c, problem.size());  // what is bounded
   for (int i = 0; i < contact; ++i) rows(i, problem.bounds.unknowns[i]) = 1;
-  if (c > contact) rows.bottomRows(c - contact) = Eigen::MatrixXd(problem.bounds.constraints).cast<long double>();
+  if (c > contact)
+    rows.bottomRows(c - contact) = Eigen::MatrixXd(problem.bounds.constraints).cast<long double>();
   const LongMatrix on_free = rows(Eigen::indexing::all, free);
   const LongVector unloaded = rows * u_fixed + on_free * (response * force);
   const LongMatrix compliance = on_free * response * on_free.transpose();
   const LongVector lower = problem.bounds.lower.cast<long double>();
   const LongVector upper = problem.bounds.upper.cast<long double>();
   const LongVector most = problem.bounds.force_limit.cast<long double>();
-  constexpr long double slack = 1e-14L;  // of a sign: far above the round-off of 64-bit mantissas, far below any gap
+  constexpr long double slack =
+      1e-14L;  // of a sign: far above the round-off of 64-bit mantissas, far below any gap
   BruteForce best;
-  // 0: free, 1: at the lower bound, 2: at the upper one, 3: below the lower one, 4: above the upper one
+  // 0: free, 1: at the lower bound, 2: at the upper one, 3: below the lower one, 4: above the upper
+  // one
   std::vector<int> set;
   set.reserve(c);
   for (int i = 0; i < c; ++i) set.push_back(next_state(-1, lower, upper, most, i));
@@ -108,8 +117,10 @@ BruteForce brute_force(const VariationalInequality& problem) {
                : set[i] == 2          ? -lambda(i)
                                       : 0) >= -slack &&
               most(i) - std::abs(lambda(i)) >= -slack;
-      right = right && (set[i] == 3 ? lower(i) - v(i) : v(i) - (set[i] == 4 ? upper(i) : lower(i))) >= -slack &&
-              (set[i] > 2 || upper(i) - v(i) >= -slack);
+      right =
+          right &&
+          (set[i] == 3 ? lower(i) - v(i) : v(i) - (set[i] == 4 ? upper(i) : lower(i))) >= -slack &&
+          (set[i] > 2 || upper(i) - v(i) >= -slack);
     }
     if (!right) continue;
     ++best.answers;

@@ -11,6 +11,8 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& b, const Eigen::VectorXd& m) {
   return product(b.transpose(), weighted);
 }
 
-Eigen::VectorXd lu_solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& right) { return a.fullPivLu().solve(right); }
+Eigen::VectorXd lu_solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& right) {
+  return a.fullPivLu().solve(right);
+}
 
 }  // namespace antilock::test

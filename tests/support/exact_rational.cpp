@@ -12,9 +12,12 @@ using Number = boost::multiprecision::cpp_rational;
 using Vector = std::vector<Number>;
 using Matrix = std::vector<Vector>;  // rows
 
-Matrix zeros(std::size_t rows, std::size_t columns) { return Matrix(rows, Vector(columns, Number(0))); }
+Matrix zeros(std::size_t rows, std::size_t columns) {
+  return Matrix(rows, Vector(columns, Number(0)));
+}
 
-/// Gauss-Jordan on the first `columns` columns: the column of each pivot row; rows beyond have zeros there.
+/// Gauss-Jordan on the first `columns` columns: the column of each pivot row; rows beyond have
+/// zeros there.
 std::vector<std::size_t> reduce(Matrix& a, std::size_t columns) {
   std::vector<std::size_t> pivots;
   for (std::size_t column = 0; column < columns && pivots.size() < a.size(); ++column) {
@@ -52,8 +55,9 @@ struct Fractions {
   Integer denominator;
 };
 
-/// The solution of a square system; empty where it is singular. Gauss-Jordan without fractions (Bareiss): what a step
-/// divides by is a factor of every entry. Fractions would be reduced at each operation, and that takes ten times as long.
+/// The solution of a square system; empty where it is singular. Gauss-Jordan without fractions
+/// (Bareiss): what a step divides by is a factor of every entry. Fractions would be reduced at each
+/// operation, and that takes ten times as long.
 std::optional<Fractions> solve(const Matrix& a, const Vector& b) {
   const std::size_t n = b.size();
   std::vector<std::vector<Integer>> rows;
@@ -72,12 +76,14 @@ std::optional<Fractions> solve(const Matrix& a, const Vector& b) {
     for (std::size_t i = 0; i < n; ++i) {
       if (i == k) continue;
       const Integer factor = rows[i][k];
-      for (std::size_t j = k + 1; j <= n; ++j) rows[i][j] = (pivot * rows[i][j] - factor * rows[k][j]) / last;
+      for (std::size_t j = k + 1; j <= n; ++j)
+        rows[i][j] = (pivot * rows[i][j] - factor * rows[k][j]) / last;
     }
     last = pivot;
   }
   Fractions x{{}, abs(last)};  // the diagonal is `last` in every row by now
-  for (std::size_t i = 0; i < n; ++i) x.numerators.push_back(last < 0 ? Integer(-rows[i][n]) : rows[i][n]);
+  for (std::size_t i = 0; i < n; ++i)
+    x.numerators.push_back(last < 0 ? Integer(-rows[i][n]) : rows[i][n]);
   return x;
 }
 
@@ -100,7 +106,8 @@ struct Side {
   std::optional<Number> most;
 };
 
-/// What a side does: nothing (its condition holds), it holds (0 <= force <= most), it has given way (force = most).
+/// What a side does: nothing (its condition holds), it holds (0 <= force <= most), it has given way
+/// (force = most).
 enum State { idle, holds, gave_way };
 
 /// The next of all sets of states; false after the last.
@@ -119,12 +126,13 @@ bool next_set(std::vector<State>& states, const std::vector<Side>& sides) {
 /// Whether two sides of one bound do something: where both hold they depend on each other.
 bool both_sides(const std::vector<State>& states, const std::vector<Side>& sides) {
   for (std::size_t k = 1; k < sides.size(); ++k)
-    if (states[k] != idle && states[k - 1] != idle && sides[k].number == sides[k - 1].number) return true;
+    if (states[k] != idle && states[k - 1] != idle && sides[k].number == sides[k - 1].number)
+      return true;
   return false;
 }
 
-/// min z' h z / 2 - g' z + the work of the sides that give way, subject to the others, by trying all sets of states. Two
-/// sides of one number are neighbours.
+/// min z' h z / 2 - g' z + the work of the sides that give way, subject to the others, by trying
+/// all sets of states. Two sides of one number are neighbours.
 std::optional<Vector> minimise(const Matrix& h, const Vector& g, const std::vector<Side>& sides) {
   const std::size_t n = g.size();
   std::vector<State> states(sides.size(), idle);
@@ -159,7 +167,8 @@ std::optional<Vector> minimise(const Matrix& h, const Vector& g, const std::vect
     for (std::size_t k = 0; k < held.size(); ++k) {
       const Integer& force = x->numerators[n + k];
       const std::optional<Number>& most = sides[held[k]].most;
-      right = right && force >= 0 && (!most || force * denominator(*most) <= numerator(*most) * x->denominator);
+      right = right && force >= 0 &&
+              (!most || force * denominator(*most) <= numerator(*most) * x->denominator);
     }
     for (std::size_t i = 0; right && i < sides.size(); ++i) {
       Integer above = -whole_sides[i][n] * x->denominator;
@@ -265,8 +274,8 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
     Vector row(dimension, Number(0));
     Number start_value = 0;
     for (std::size_t i = 0; i < size; ++i) {
-      const Number entry =
-          k < contact ? Number(static_cast<int>(i) == problem.bounds.unknowns[k]) : Number(constraints(k - contact, i));
+      const Number entry = k < contact ? Number(static_cast<int>(i) == problem.bounds.unknowns[k])
+                                       : Number(constraints(k - contact, i));
       if (entry == 0) continue;
       start_value += entry * u[i];
       if (place[i] < 0) continue;
@@ -276,7 +285,8 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
       if (std::isinf(value)) return;
       Side side{row, sign * (Number(value) - start_value), k, std::nullopt};
       for (Number& entry : side.c) entry *= sign;
-      if (std::isfinite(problem.bounds.force_limit(k))) side.most = Number(problem.bounds.force_limit(k));
+      if (std::isfinite(problem.bounds.force_limit(k)))
+        side.most = Number(problem.bounds.force_limit(k));
       sides.push_back(side);
     };
     add(1, problem.bounds.lower(k));
@@ -288,7 +298,8 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
   answer.u.resize(problem.size());
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < dimension; ++k) u[free[i]] += basis[i][k] * (*z)[k];
-  for (std::size_t i = 0; i < size; ++i) answer.u(static_cast<Eigen::Index>(i)) = static_cast<double>(u[i]);
+  for (std::size_t i = 0; i < size; ++i)
+    answer.u(static_cast<Eigen::Index>(i)) = static_cast<double>(u[i]);
   return answer;
 }
 

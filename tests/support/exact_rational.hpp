@@ -17,11 +17,11 @@ struct ExactAnswer {
   Eigen::VectorXd u;  ///< N, rounded once; empty unless solved
 };
 
-/// The inequality without any rounding: every double is a rational number. In coordinates of the kernel of B
-/// (compliance = 0), or of all free unknowns, every contact set with independent bounds (on either side, and on
-/// combinations) is tried until one meets every
-/// condition; where none does, no u is admissible. Exponential in the contact unknowns and cubic in bits: up to six
-/// unknowns or so.
+/// The inequality without any rounding: every double is a rational number. In coordinates of the
+/// kernel of B (compliance = 0), or of all free unknowns, every contact set with independent bounds
+/// (on either side, and on combinations) is tried until one meets every
+/// condition; where none does, no u is admissible. Exponential in the contact unknowns and cubic in
+/// bits: up to six unknowns or so.
 ExactAnswer exact_answer(const VariationalInequality& problem);
 
 }  // namespace antilock::test

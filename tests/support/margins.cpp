@@ -24,8 +24,8 @@ class Notes {
   ~Notes() {
     std::string text;
     for (const auto& [place, n] : nearest)
-      text +=
-          fmt::format("{:.6g}\t{:.3g}\t{:.3g}\t{}\t{}\t{}\n", n.ratio, n.observed, n.allowed, place, n.test, n.what);
+      text += fmt::format("{:.6g}\t{:.3g}\t{:.3g}\t{}\t{}\t{}\n", n.ratio, n.observed, n.allowed,
+                          place, n.test, n.what);
     if (!text.empty()) std::ofstream(std::getenv("ANTILOCK_MARGINS"), std::ios::app) << text;
   }
 
@@ -43,7 +43,8 @@ void note(const char* file, int line, const char* what, double observed, double 
   Nearest& nearest = notes.nearest[fmt::format("{}:{}", path.substr(path.rfind("tests/")), line)];
   if (ratio <= nearest.ratio) return;
   const testing::TestInfo* const test = testing::UnitTest::GetInstance()->current_test_info();
-  nearest = {ratio, observed, allowed, what, test ? fmt::format("{}.{}", test->test_suite_name(), test->name()) : ""};
+  nearest = {ratio, observed, allowed, what,
+             test ? fmt::format("{}.{}", test->test_suite_name(), test->name()) : ""};
 }
 
 }  // namespace antilock::margins

@@ -1,7 +1,8 @@
 #pragma once
-// How near each numerical assertion comes to its bound. With ANTILOCK_MARGINS=FILE a test program adds a line per assertion
-// with an order or a tolerance: the largest observed / allowed of the run (below 1 where it holds), both values, place, test.
-// tests/margins runs the tests under several kernels and prints the nearest. Included by the tests' precompiled header.
+// How near each numerical assertion comes to its bound. With ANTILOCK_MARGINS=FILE a test program
+// adds a line per assertion with an order or a tolerance: the largest observed / allowed of the run
+// (below 1 where it holds), both values, place, test. tests/margins runs the tests under several
+// kernels and prints the nearest. Included by the tests' precompiled header.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +11,8 @@
 
 namespace antilock::margins {
 
-/// Notes an assertion at `file`, `line`; observed / allowed is the ratio of the two (of magnitudes; 0 where either is 0).
+/// Notes an assertion at `file`, `line`; observed / allowed is the ratio of the two (of magnitudes;
+/// 0 where either is 0).
 void note(const char* file, int line, const char* what, double observed, double allowed);
 extern const bool asked;  ///< whether ANTILOCK_MARGINS is set
 
@@ -30,10 +32,12 @@ struct At {
   auto ordered(const char* op) const {
     return [*this, op](const char* a, const char* b, const auto& x, const auto& y) {
       op[0] == '<' ? at_most(a, x, y) : at_most(a, y, x);
-      return Holds{}(x, y) ? testing::AssertionSuccess() : testing::internal::CmpHelperOpFailure(a, b, x, y, op);
+      return Holds{}(x, y) ? testing::AssertionSuccess()
+                           : testing::internal::CmpHelperOpFailure(a, b, x, y, op);
     };
   }
-  auto near(const char* a, const char* b, const char* c, double x, double y, double tolerance) const {
+  auto near(const char* a, const char* b, const char* c, double x, double y,
+            double tolerance) const {
     at_most(a, std::abs(x - y), tolerance);
     return testing::internal::DoubleNearPredFormat(a, b, c, x, y, tolerance);
   }

@@ -5,9 +5,10 @@
 
 namespace antilock::test {
 
-/// A membrane on the unit square over an obstacle, every inner vertex bounded: P1 on the structured mesh of n x n squares,
-/// whose matrix is the five-point star. f = -8 everywhere; the obstacle is a paraboloid in the middle and far below at the
-/// rim, so that the membrane lies on a disc of it. Rows x columns of vertices; (n - 1)^2 unknowns.
+/// A membrane on the unit square over an obstacle, every inner vertex bounded: P1 on the structured
+/// mesh of n x n squares, whose matrix is the five-point star. f = -8 everywhere; the obstacle is a
+/// paraboloid in the middle and far below at the rim, so that the membrane lies on a disc of it.
+/// Rows x columns of vertices; (n - 1)^2 unknowns.
 inline VariationalInequality membrane_over_obstacle(int n) {
   const int m = n - 1, size = m * m;
   const double h = 1.0 / n;

@@ -6,8 +6,8 @@
 
 namespace antilock::test {
 
-/// Contact problems of 3 to 30 unknowns over 0 with a random symmetric positive definite matrix, condition number 1e7 at
-/// most: plain exchanges of whole sets cycle on some of them.
+/// Contact problems of 3 to 30 unknowns over 0 with a random symmetric positive definite matrix,
+/// condition number 1e7 at most: plain exchanges of whole sets cycle on some of them.
 class RandomContact {
  public:
   void next() {

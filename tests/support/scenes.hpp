@@ -1,6 +1,6 @@
 #pragma once
-// What every test begins with: gtest, the standard library's usual pages, a mesh, a problem and its solver, and the scenes
-// that tests share. In the tests' precompiled header.
+// What every test begins with: gtest, the standard library's usual pages, a mesh, a problem and its
+// solver, and the scenes that tests share. In the tests' precompiled header.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -52,7 +52,8 @@ struct NamedSpace : Space {
 };
 
 /// Each element on each of the two_square_meshes.
-inline std::vector<NamedSpace> two_square_spaces(int cells, const std::vector<const Element*>& elements) {
+inline std::vector<NamedSpace> two_square_spaces(int cells,
+                                                 const std::vector<const Element*>& elements) {
   std::vector<NamedSpace> spaces;
   for (const auto& [name, mesh] : two_square_meshes(cells))
     for (const Element* element : elements) spaces.emplace_back(name, mesh, *element);
@@ -63,7 +64,8 @@ inline std::vector<NamedSpace> two_square_spaces(int cells, const std::vector<co
 inline Scene stiff_scene(double epsilon, UnilateralContact contact = {}) {
   return Scene({paper_load}, StiffLayer{epsilon}, std::move(contact));
 }
-inline VariationalInequality stiff_problem(const Space& space, double epsilon, UnilateralContact contact = {}) {
+inline VariationalInequality stiff_problem(const Space& space, double epsilon,
+                                           UnilateralContact contact = {}) {
   return assemble(stiff_scene(epsilon, std::move(contact)), space);
 }
 
@@ -106,7 +108,8 @@ inline double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorX
 /// at_lower where `active`, else between: a start for bounds from below.
 inline BoundStatuses held_at_lower(const std::vector<bool>& active) {
   BoundStatuses status;
-  for (const bool held : active) status.push_back(held ? BoundStatus::at_lower : BoundStatus::inactive);
+  for (const bool held : active)
+    status.push_back(held ? BoundStatus::at_lower : BoundStatus::inactive);
   return status;
 }
 

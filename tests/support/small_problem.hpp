@@ -7,8 +7,8 @@ namespace antilock::test {
 
 /// A1 (full), its load, lower bounds of the first unknowns, and B with M = 1.
 inline VariationalInequality small_problem(const Eigen::MatrixXd& a1, const Eigen::VectorXd& load,
-                                           const Eigen::VectorXd& lower = {}, const Eigen::MatrixXd& b = {},
-                                           double compliance = 1) {
+                                           const Eigen::VectorXd& lower = {},
+                                           const Eigen::MatrixXd& b = {}, double compliance = 1) {
   VariationalInequality problem;
   problem.a1 = a1.sparseView();
   problem.b = b.rows() > 0 ? RowMatrix(b.sparseView()) : RowMatrix(0, a1.cols());

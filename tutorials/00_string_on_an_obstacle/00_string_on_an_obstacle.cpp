@@ -5,15 +5,17 @@
 // Run: 00_string_on_an_obstacle --exercise 2
 // Run: 00_string_on_an_obstacle --exercise 3
 //
-// Needs: one course on finite elements (hat functions, the matrix of a form). It is the first chapter.
+// Needs: one course on finite elements (hat functions, the matrix of a form). It is the
+// first chapter.
 // :live: string
 //
-// A string is held at both ends. The load $f(x) = 10 \sin 2πx$ lifts its left half and presses its right half on a
-// floor at height 0. Without the floor it would be a sine.
+// A string is held at both ends. The load $f(x) = 10 \sin 2πx$ lifts its left half and
+// presses its right half on a floor at height 0. Without the floor it would be a sine.
 //
-// **Predict, before you read on.** On 32 cells the string has 31 nodes between its ends. (a) A node touches the floor or
-// it does not: there are $2^{31}$ sets of nodes that might touch. How many of them must a program try? (b) The second
-// program below guesses the forces of the floor and corrects them step by step. Make the cells half as long: how many
+// **Predict, before you read on.** On 32 cells the string has 31 nodes between its ends.
+// (a) A node touches the floor or it does not: there are $2^{31}$ sets of nodes that might
+// touch. How many of them must a program try? (b) The second program below guesses the
+// forces of the floor and corrects them step by step. Make the cells half as long: how many
 // times as many steps does a further digit cost?
 //
 // ## An energy, and a cone
@@ -22,30 +24,36 @@
 //
 // $$ J(v) = ½ a(v, v) - L(v),   a(u, v) = ∫_0^1 u' v' dx,   L(v) = ∫_0^1 f v dx. $$
 //
-// The first term is what it costs to stretch the string, the second what the load gains when the string gives way. The
-// floor allows only the shapes in $K = \{ v : v ≥ 0 \}$. This set is *convex*: the straight way between two of its
-// shapes stays in it. It is even a *cone*: with a shape it contains each positive multiple of it.
+// The first term is what it costs to stretch the string, the second what the load gains
+// when the string gives way. The floor allows only the shapes in $K = \{ v : v ≥ 0 \}$.
+// This set is *convex*: the straight way between two of its shapes stays in it. It is even
+// a *cone*: with a shape it contains each positive multiple of it.
 //
-// **Why $v - u$ and not $v$.** Without a floor one finds the shape of least energy as one finds the lowest point of a
-// parabola: the derivative of $J$ is 0 in every direction $v$, and $a(u, v) = L(v)$ for all $v$. Here this is too much.
-// If the string lies on the floor at its best shape $u$, a lower one may well have less energy, but it is not allowed,
-// and the derivative in that direction says nothing. So ask only about directions that stay in $K$. All of them are of
-// one kind: choose any allowed shape $v$ and go from $u$ straight towards it. The direction is $v - u$. The points on
-// the way are $u + t (v - u)$ with $0 ≤ t ≤ 1$, and they are allowed, because $K$ is convex. As $u$ has the least
-// energy of all allowed shapes, the energy on the way is not below its own:
+// **Why $v - u$ and not $v$.** Without a floor one finds the shape of least energy as one
+// finds the lowest point of a parabola: the derivative of $J$ is 0 in every direction $v$,
+// and $a(u, v) = L(v)$ for all $v$. Here this is too much. If the string lies on the floor
+// at its best shape $u$, a lower one may well have less energy, but it is not allowed, and
+// the derivative in that direction says nothing. So ask only about directions that stay in
+// $K$. All of them are of one kind: choose any allowed shape $v$ and go from $u$ straight
+// towards it. The direction is $v - u$. The points on the way are $u + t (v - u)$ with
+// $0 ≤ t ≤ 1$, and they are allowed, because $K$ is convex. As $u$ has the least energy of
+// all allowed shapes, the energy on the way is not below its own:
 //
 // $$ 0 ≤ J(u + t(v - u)) - J(u) = t (a(u, v - u) - L(v - u)) + ½ t^2 a(v - u, v - u). $$
 //
-// Divide by $t$ and let $t → 0$: the last term vanishes, and the slope in the direction $v - u$ is not negative.
+// Divide by $t$ and let $t → 0$: the last term vanishes, and the slope in the direction
+// $v - u$ is not negative.
 //
 // $$ u ∈ K,   a(u, v - u) ≥ L(v - u)   for all v ∈ K. $$
 //
-// This is a *variational inequality*. It loses nothing. Put $t = 1$ into the first formula: $J(v) - J(u)$ is the sum of
-// two terms. The inequality says that the first is not negative, and the second is half a square. So $J(v) ≥ J(u)$ for
-// each allowed $v$. Where the string is free, $v$ may be a little above or a little below $u$. Both signs of the
-// difference are allowed, and $≥$ becomes the familiar $=$. Where the string touches, only the way up is allowed, and
-// $≥$ is all that can be said. So one inequality holds an equation where nothing touches and a sign where something
-// does. Where one ends and the other begins is part of the answer.
+// This is a *variational inequality*. It loses nothing. Put $t = 1$ into the first formula:
+// $J(v) - J(u)$ is the sum of two terms. The inequality says that the first is not
+// negative, and the second is half a square. So $J(v) ≥ J(u)$ for each allowed $v$. Where
+// the string is free, $v$ may be a little above or a little below $u$. Both signs of the
+// difference are allowed, and $≥$ becomes the familiar $=$. Where the string touches, only
+// the way up is allowed, and $≥$ is all that can be said. So one inequality holds an
+// equation where nothing touches and a sign where something does. Where one ends and the
+// other begins is part of the answer.
 //
 // **There is one solution, and only one.** Let $u$ and $u'$ both solve the inequality. By
 // the formula above $J(u') - J(u)$ and $J(u) - J(u')$ are each at least
@@ -54,23 +62,27 @@
 // beyond all bounds in every direction, and because $K$ is closed. In infinitely many
 // dimensions this is the theorem of *Stampacchia*.
 //
-// **The same in a picture.** Let $w$ be the string without a floor: $L(v) = a(w, v)$ for all $v$. The inequality
-// becomes $a(u, v - u) ≥ a(w, v - u)$, or $a(w - u, v - u) ≤ 0$. Seen from $u$, the way to $w$ makes no acute angle
-// with a way to a $v$ in $K$. So $u$ is the *projection* of $w$ onto $K$: nearest there, with lengths $a(v, v)^{1/2}$.
+// **The same in a picture.** Let $w$ be the string without a floor: $L(v) = a(w, v)$ for
+// all $v$. The inequality becomes $a(u, v - u) ≥ a(w, v - u)$, or $a(w - u, v - u) ≤ 0$.
+// Seen from $u$, the way to $w$ makes no acute angle with a way to a $v$ in $K$. So $u$ is
+// the *projection* of $w$ onto $K$: nearest there, with lengths $a(v, v)^{1/2}$.
 // :figure: projection
 //
-// **The multiplier is the contact force.** Now let the string be linear between the nodes $x_i = i h$, so that
-// $u = ∑ u_i φ_i$ with hat functions $φ_i$. It is in $K$ if none of its values at the nodes is negative. Write $u$ for
-// the vector of these values too. With the matrix $A_{ij} = a(φ_i, φ_j)$ and the loads $b_i = L(φ_i)$ the inequality
-// reads $(A u - b)^T (v - u) ≥ 0$. Call $λ = A u - b$ the *multiplier*: $A u = b + λ$, so it is the force that is
-// missing for equilibrium, and only the floor can exert it. What is known of it follows from three shapes. Put
-// $v = u + φ_i$: $λ_i ≥ 0$. Put $v = 0$: $λ^T u ≤ 0$. Put $v = 2u$: $λ^T u ≥ 0$. So $λ^T u = 0$, and as no term of this
-// sum is negative, each is 0. For every inner node
+// **The multiplier is the contact force.** Now let the string be linear between the nodes
+// $x_i = i h$, so that $u = ∑ u_i φ_i$ with hat functions $φ_i$. It is in $K$ if none of
+// its values at the nodes is negative. Write $u$ for the vector of these values too. With
+// the matrix $A_{ij} = a(φ_i, φ_j)$ and the loads $b_i = L(φ_i)$ the inequality reads
+// $(A u - b)^T (v - u) ≥ 0$. Call $λ = A u - b$ the *multiplier*: $A u = b + λ$, so it is
+// the force that is missing for equilibrium, and only the floor can exert it. What is known
+// of it follows from three shapes. Put $v = u + φ_i$: $λ_i ≥ 0$. Put $v = 0$: $λ^T u ≤ 0$.
+// Put $v = 2u$: $λ^T u ≥ 0$. So $λ^T u = 0$, and as no term of this sum is negative, each
+// is 0. For every inner node
 //
 // $$ u_i ≥ 0,   λ_i ≥ 0,   λ_i u_i = 0,   A u = b + λ. $$
 //
-// The string is not below the floor; the floor only pushes, and only where it is touched. Two numbers that are not
-// negative and have the product 0 are *complementary*; the four are the *KKT conditions* of Karush, Kuhn and Tucker.
+// The string is not below the floor; the floor only pushes, and only where it is touched.
+// Two numbers that are not negative and have the product 0 are *complementary*; the four
+// are the *KKT conditions* of Karush, Kuhn and Tucker.
 
 #include <numbers>
 
@@ -89,10 +101,12 @@ struct String {
   VectorXd b;  // at the inner nodes
 };
 // ### Forms
-// $A$ has $2/h$ on its diagonal and $-1/h$ beside it; $∫ \sin(2πx) φ_i = \sin(2πx_i) (2 - 2\cos 2πh)/(4π² h)$.
+// $A$ has $2/h$ on its diagonal and $-1/h$ beside it;
+// $∫ \sin(2πx) φ_i = \sin(2πx_i) (2 - 2\cos 2πh)/(4π² h)$.
 String hang(int cells, double load = 10, double floor = 0) {
   const int n = cells - 1;
-  const double h = 1.0 / cells, factor = load * (2 - 2 * std::cos(2 * pi * h)) / (4 * pi * pi * h);
+  const double h = 1.0 / cells,
+               factor = load * (2 - 2 * std::cos(2 * pi * h)) / (4 * pi * pi * h);
   String s{h, floor, MatrixXd::Zero(n, n), VectorXd::Zero(n)};
   for (int i = 0; i < n; ++i) {
     s.a(i, i) = 2 / h;
@@ -108,13 +122,15 @@ struct Result {
 };
 
 // ### Solve
-// **Active set.** Guess which nodes touch. There the string is on the floor; elsewhere there is no force, and the
-// equation gives the shape. Then look at the signs: a node that sank below the floor should have touched; a node that
-// the floor would have to pull should not. When the guess, the *active set*, repeats itself, all signs are right.
+// **Active set.** Guess which nodes touch. There the string is on the floor; elsewhere
+// there is no force, and the equation gives the shape. Then look at the signs: a node that
+// sank below the floor should have touched; a node that the floor would have to pull should
+// not. When the guess, the *active set*, repeats itself, all signs are right.
 //
-// It does repeat itself. A force upwards at one node lowers no other: $A$ is an *M-matrix* (no entry off its diagonal
-// is positive, none of its inverse negative). From the second guess on, each shape is the one before without the pull
-// of the nodes that were let go, and so above it: no node comes back, the set shrinks. Other matrices may cycle.
+// It does repeat itself. A force upwards at one node lowers no other: $A$ is an *M-matrix*
+// (no entry off its diagonal is positive, none of its inverse negative). From the second
+// guess on, each shape is the one before without the pull of the nodes that were let go,
+// and so above it: no node comes back, the set shrinks. Other matrices may cycle.
 Result active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   const int n = static_cast<int>(s.b.size());
   Result result;
@@ -124,7 +140,8 @@ Result active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
     MatrixXd a = s.a;
     VectorXd right = s.b;
     for (int i = 0; i < n; ++i)
-      if (guess[i]) a(i, i) = 1e30, right(i) = 1e30 * s.floor;  // row i now says u_i = floor
+      if (guess[i])
+        a(i, i) = 1e30, right(i) = 1e30 * s.floor;  // row i now says u_i = floor
     result.u = Cholesky(a).solve(right);
     for (int i = 0; i < n; ++i)
       if (guess[i]) result.u(i) = s.floor;  // without the round-off of 1e30
@@ -139,90 +156,117 @@ Result active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   return result;
 }
 
-// **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor, push
-// more; where it is above, push less, but never pull: $λ_i ← \max(0, λ_i - ρ (u_i - floor))$. The *step* $ρ$ is a
-// number of our choice. A pair that no step changes satisfies the KKT conditions: where there is a force the string is
-// on the floor, and where there is none it is not below. The steps get there because each goes downhill, in
+// **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where
+// it is below the floor, push more; where it is above, push less, but never pull:
+// $λ_i ← \max(0, λ_i - ρ (u_i - floor))$. The *step* $ρ$ is a number of our choice. A pair
+// that no step changes satisfies the KKT conditions: where there is a force the string is
+// on the floor, and where there is none it is not below. The steps get there because each
+// goes downhill, in
 //
 // $$ D(λ) = ½ (b + λ)^T A^{-1} (b + λ) - floor ∑ λ_i,   λ ≥ 0, $$
 //
-// the energy that the string stores, less the work of the floor (the *dual* energy). Its gradient is
-// $A^{-1} (b + λ) - floor = u - floor$. The step goes against it, and the maximum projects back onto $λ ≥ 0$: this is a
-// *projected gradient* method. Its operator is $A^{-1}$, the *compliance*: force in, displacement out. A step
-// multiplies the part of the error that belongs to the eigenvalue $σ$ of the compliance by $1 - ρσ$. The eigenvalues of
-// $A$ are $4 \sin^2(kπh/2)/h$, so those of the compliance lie between about $h/4$ and $1/(π² h)$. Every step below 2 /
-// largest, $ρ < 2π² h$, is safe. The part with the smallest is the slowest: its factor is $1 - ρ h/4$, at best about
-// $1 - π² h²/2$. So halve $h$, and a digit takes four times as many steps. The *condition number* $κ$ = largest /
-// smallest eigenvalue, here $4/(π² h²)$, says it in one number: the factor is $1 - 2/κ$.
-Result uzawa_by_hand(const String& s, double rho, double tolerance, std::vector<VectorXd>* shapes = nullptr) {
+// the energy that the string stores, less the work of the floor (the *dual* energy). Its
+// gradient is $A^{-1} (b + λ) - floor = u - floor$. The step goes against it, and the
+// maximum projects back onto $λ ≥ 0$: this is a
+// *projected gradient* method. Its operator is $A^{-1}$, the *compliance*: force in,
+// displacement out. A step multiplies the part of the error that belongs to the eigenvalue
+// $σ$ of the compliance by $1 - ρσ$. The eigenvalues of $A$ are $4 \sin^2(kπh/2)/h$, so
+// those of the compliance lie between about $h/4$ and $1/(π² h)$. Every step below 2 /
+// largest, $ρ < 2π² h$, is safe. The part with the smallest is the slowest: its factor is
+// $1 - ρ h/4$, at best about $1 - π² h²/2$. So halve $h$, and a digit takes four times as
+// many steps. The *condition number* $κ$ = largest / smallest eigenvalue, here $4/(π² h²)$,
+// says it in one number: the factor is $1 - 2/κ$.
+Result uzawa_by_hand(const String& s, double rho, double tolerance,
+                     std::vector<VectorXd>* shapes = nullptr) {
   const Cholesky factor(s.a);
   Result result{s.b, 0 * s.b};
   for (double change = 1; change > tolerance; ++result.solves) {
     result.u = factor.solve(VectorXd(s.b + result.lambda));
     if (shapes) shapes->push_back(result.u);
-    const VectorXd next = (result.lambda.array() - rho * (result.u.array() - s.floor)).max(0).matrix();
+    const VectorXd next =
+        (result.lambda.array() - rho * (result.u.array() - s.floor)).max(0).matrix();
     change = (next - result.lambda).lpNorm<Eigen::Infinity>() / rho;
     result.lambda = next;
   }
   return result;
 }
 
-// **The truth.** Where the string is free it is $U(x) = α \sin 2πx + s x$, $α = 10/(4π²)$, since $-u'' = f$. Contact
-// starts at $c$, where $U$ is 0. A kink there would be a jump of $u'$ from a negative value up to 0, which only a pull
-// can hold. So $U'(c) = 0$, too. Both together say $\tan z = z$ for $z = 2πc$: $c = 0.715148...$, $s = -2πα \cos z$.
+// **The truth.** Where the string is free it is $U(x) = α \sin 2πx + s x$, $α = 10/(4π²)$,
+// since $-u'' = f$. Contact starts at $c$, where $U$ is 0. A kink there would be a jump of
+// $u'$ from a negative value up to 0, which only a pull can hold. So $U'(c) = 0$, too. Both
+// together say $\tan z = z$ for $z = 2πc$: $c = 0.715148...$, $s = -2πα \cos z$.
 //
-// **The discrete string.** With exact loads a free string is exact at its nodes. So left of the first node $x_j$ that
-// touches it is $U(x) - U(x_j) x/x_j$, which solves $-u'' = f$ and is 0 at both ends. Near $c$, $U$ is the parabola
-// $|f(c)| (x - c)²/2$: the error is about its value at $x_j$. Were $x_j$ over half a cell right of $c$, the node before
-// it would be nearer to $c$, with a smaller $U$: below the floor. Were it over half a cell left, the kink at it would
-// need more than its load: a pull. So it is the node nearest to $c$, up to a part of a cell that falls with $h$.
+// **The discrete string.** With exact loads a free string is exact at its nodes. So left of
+// the first node $x_j$ that touches it is $U(x) - U(x_j) x/x_j$, which solves $-u'' = f$
+// and is 0 at both ends. Near $c$, $U$ is the parabola $|f(c)| (x - c)²/2$: the error is
+// about its value at $x_j$. Were $x_j$ over half a cell right of $c$, the node before it
+// would be nearer to $c$, with a smaller $U$: below the floor. Were it over half a cell
+// left, the kink at it would need more than its load: a pull. So it is the node nearest to
+// $c$, up to a part of a cell that falls with $h$.
 void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& report) {
   const String s = hang(options.cells);
   const double rho = 1.9 * pi * pi * s.h;
   std::vector<VectorXd> guesses;
-  const Result active = active_set_by_hand(s, guesses), uzawa = uzawa_by_hand(s, rho, 1e-10);
+  const Result active = active_set_by_hand(s, guesses),
+               uzawa = uzawa_by_hand(s, rho, 1e-10);
   fmt::print("  linear solves: active set {}, Uzawa {}\n", active.solves, uzawa.solves);
   // ### Output
-  const double from = tutorial::contact_starts(active.lambda), c = tutorial::touches_from(0);
+  const double from = tutorial::contact_starts(active.lambda),
+               c = tutorial::touches_from(0);
   const VectorXd expected = tutorial::discrete_string(options.cells, from);
-  tutorial::write_string(options.out, guesses, active.lambda, tutorial::exact_string(options.cells));
+  tutorial::write_string(options.out, guesses, active.lambda,
+                         tutorial::exact_string(options.cells));
   const double left_over = (s.a * active.u - s.b - active.lambda).cwiseAbs().maxCoeff();
-  report.claim(active.u.minCoeff() >= 0 && active.lambda.minCoeff() >= 0 && active.u.dot(active.lambda) == 0 &&
+  report.claim(active.u.minCoeff() >= 0 && active.lambda.minCoeff() >= 0 &&
+                   active.u.dot(active.lambda) == 0 &&
                    left_over <= 1e-12,  // round-off: 2e-14 on 128 cells
                "KKT: the signs exactly, A u = b + lambda to {:.0e} (proved)", left_over);
-  report.claim_within((active.u - expected).cwiseAbs().maxCoeff(), 0, 1.5e-13, "u is what it must be, up to (proved)");
-  report.claim(std::abs(from - c) <= 0.6 * s.h, "contact from {:.4f} on, the node next to {:.4f} (proved)", from, c);
-  // Where the floor pushes, u should be 0, and Uzawa's last change is that u. In between the error is a straight line.
+  report.claim_within((active.u - expected).cwiseAbs().maxCoeff(), 0, 1.5e-13,
+                      "u is what it must be, up to (proved)");
+  report.claim(std::abs(from - c) <= 0.6 * s.h,
+               "contact from {:.4f} on, the node next to {:.4f} (proved)", from, c);
+  // Where the floor pushes, u should be 0, and Uzawa's last change is that u. In between
+  // the error is a straight line.
   report.claim_within((uzawa.u - active.u).lpNorm<Eigen::Infinity>(), 0, 1.001e-10,
                       "Uzawa's string is off by at most its last change (proved):");
-  if (options.cells < 16) return report.not_judged("the price of a digit: from 16 cells on");
+  if (options.cells < 16)
+    return report.not_judged("the price of a digit: from 16 cells on");
   const int two_digits = uzawa_by_hand(s, rho, 1e-12).solves - uzawa.solves;
-  report.claim_within(two_digits * rho * s.h / 4 / std::log(100), 0.85, 1.15,
-                      "two further digits cost ln(100) / (rho h / 4) steps (observed): times");
+  report.claim_within(
+      two_digits * rho * s.h / 4 / std::log(100), 0.85, 1.15,
+      "two further digits cost ln(100) / (rho h / 4) steps (observed): times");
 }
 
 // ## What came out
 // :output:
 // :figure: string_steps
 //
-// (a) Nine of $2^{31}$. Each guess corrects the one before, and from the second one on they only shrink. (b) Four times
-// as many: the last verdict has $1/(ρ h)$ of them, and $ρ$ is in proportion to $h$. Contact starts at 0.7151 and not at
-// the middle, where the load turns down, since the lifted half pulls its neighbour up. Where the string lies flat it does
-// not bend, so the pressure is $-f$: from the first touch on, the floor carries the whole load.
+// (a) Nine of $2^{31}$. Each guess corrects the one before, and from the second one on they
+// only shrink. (b) Four times as many: the last verdict has $1/(ρ h)$ of them, and $ρ$ is
+// in proportion to $h$. Contact starts at 0.7151 and not at the middle, where the load
+// turns down, since the lifted half pulls its neighbour up. Where the string lies flat it
+// does not bend, so the pressure is $-f$: from the first touch on, the floor carries the
+// whole load.
 // :number: 0.7151 = line "the node next to {}"
 //
 // ## Exercises
 //
 // 1. Double the load. What happens to $u$, to the forces, to the contact set?
-// 2. Lower the floor to $-0.05$. $K$ is no cone any more. Where does contact start? Does it reach $x = 1$?
-// 3. Uzawa with $ρ = 4π² h$, twice the safe step. Does it diverge? (At which nodes is $λ$ not 0?)
-// 4. On paper: show by $v = 0$ and $v = 2u$ that $a(u, u) = L(u)$. Which of the two is forbidden in exercise 2, and
-//    what is left of the equality?
+// 2. Lower the floor to $-0.05$. $K$ is no cone any more. Where does contact start? Does it
+//    reach $x = 1$?
+// 3. Uzawa with $ρ = 4π² h$, twice the safe step. Does it diverge? (At which nodes is $λ$
+//    not 0?)
+// 4. On paper: show by $v = 0$ and $v = 2u$ that $a(u, u) = L(u)$. Which of the two is
+//    forbidden in exercise 2, and what is left of the equality?
 
 #include "answers.hpp"
 
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "00_string_on_an_obstacle", "what a variational inequality is, by hand",
-                       {.takes_epsilon = false, .least_cells = 4, .most_cells = 128, .exercises = exercises()},
+  return tutorial::run(argc, argv, "00_string_on_an_obstacle",
+                       "what a variational inequality is, by hand",
+                       {.takes_epsilon = false,
+                        .least_cells = 4,
+                        .most_cells = 128,
+                        .exercises = exercises()},
                        string_on_an_obstacle);
 }

@@ -14,12 +14,15 @@ struct DomainNames {
   std::string layer, ends, contact, depth, note;
 };
 
-/// The domain with a layer of this depth, as a table of shapes: kind, name (its first word chooses
-/// the colour), label, x, y; one row per corner. figures/pictures/domain.cpp reads it. The obstacle
-/// is drawn apart from Gamma_C, to be seen; in the problem they touch where u = 0.
-inline void write_drawing(const std::filesystem::path& path, double depth, const DomainNames& names) {
+/// The domain with a layer of this depth, as a table of shapes: kind, name (its first word
+/// chooses the colour), label, x, y; one row per corner. figures/pictures/domain.cpp reads
+/// it. The obstacle is drawn apart from Gamma_C, to be seen; in the problem they touch
+/// where u = 0.
+inline void write_drawing(const std::filesystem::path& path, double depth,
+                          const DomainNames& names) {
   Table table({"kind", "name", "label", "x", "y"});
-  const auto points = [&](const char* kind, const char* name, const std::vector<Eigen::Vector2d>& corners) {
+  const auto points = [&](const char* kind, const char* name,
+                          const std::vector<Eigen::Vector2d>& corners) {
     for (const auto& corner : corners) table.add({kind, name, "", corner.x(), corner.y()});
   };
   const auto label = [&](const char* name, const std::string& text, double x, double y) {
@@ -46,7 +49,8 @@ inline void write_drawing(const std::filesystem::path& path, double depth, const
   label("", names.layer, 0.5, -0.5 * depth);
   if (!names.note.empty()) label("axis", names.note, 0.5, -0.5 * depth - 0.12);
   label("sigma", "$Σ$", 0.8, 0.06);
-  for (const auto& [x, y] : {std::pair{0.5, 1.07}, {-0.09, 0.5}, {1.09, 0.5}}) label("clamped", "$Γ^+$", x, y);
+  for (const auto& [x, y] : {std::pair{0.5, 1.07}, {-0.09, 0.5}, {1.09, 0.5}})
+    label("clamped", "$Γ^+$", x, y);
   for (const double x : {-0.13, 1.13}) label("layer_clamped", names.ends, x, -0.5 * depth);
   label("contact", names.contact, 0.55, -depth - 0.075);
   label("", "$n$", 0.25, -depth - 0.09);

@@ -33,9 +33,10 @@ struct TiedMesh {
   int groups;
 };
 
-/// The layers side by side, two per row, their triangles coloured by group from left to right, as a table of shapes that
-/// figures/pictures/domain.cpp reads.
-inline void draw_ties(const std::filesystem::path& path, const std::vector<TiedMesh>& layers) {
+/// The layers side by side, two per row, their triangles coloured by group from left to
+/// right, as a table of shapes that figures/pictures/domain.cpp reads.
+inline void draw_ties(const std::filesystem::path& path,
+                      const std::vector<TiedMesh>& layers) {
   Table table({"kind", "name", "label", "x", "y"});
   table.add({"page", "", "", -0.04, -2.5});
   table.add({"page", "", "", 2.16, 0.06});
@@ -51,17 +52,20 @@ inline void draw_ties(const std::filesystem::path& path, const std::vector<TiedM
       }
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       if (leader[t] < 0) continue;
-      const auto place = std::count_if(from.begin(), from.end(),
-                                       [&](const auto& group) { return group.second < from[leader[t]] - 1e-9; });
+      const auto place = std::count_if(from.begin(), from.end(), [&](const auto& group) {
+        return group.second < from[leader[t]] - 1e-9;
+      });
       const auto corner = [&](const char* kind, const std::string& named, int i) {
         const int v = mesh.triangles(t, i % 3);
         table.add({kind, named, "", left + mesh.vertices(v, 0), top + mesh.vertices(v, 1)});
       };
-      for (int i = 0; i < 3; ++i) corner("fill", fmt::format("tied{} {}.{}", place % 6, m, t), i);
+      for (int i = 0; i < 3; ++i)
+        corner("fill", fmt::format("tied{} {}.{}", place % 6, m, t), i);
       for (int i = 0; i < 4; ++i) corner("line", fmt::format("axis {}.{}", m, t), i);
     }
     table.add({"label", "axis",
-               fmt::format("{}: {} {}", layers[m].name, layers[m].groups, layers[m].groups == 1 ? "group" : "groups"),
+               fmt::format("{}: {} {}", layers[m].name, layers[m].groups,
+                           layers[m].groups == 1 ? "group" : "groups"),
                left + 0.5, top + 0.07});
   }
   table.write(path);

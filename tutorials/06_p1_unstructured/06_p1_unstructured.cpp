@@ -6,22 +6,25 @@
 // Run: 06_p1_unstructured --exercise 2
 // Run: 06_p1_unstructured --exercise 3
 //
-// Needs: [02](../02_meshes/02_meshes.cpp) (kernel, tied triangles), [05](../05_p1_structured/05_p1_structured.cpp) (the limit problem (27), Theorem 4).
+// Needs: [02](../02_meshes/02_meshes.cpp) (kernel, tied triangles),
+// [05](../05_p1_structured/05_p1_structured.cpp) (the limit problem (27), Theorem 4).
 // :live: mesh=unstructured
 //
-// **The picture.** Figure 7: the same problem, the same element, about as many triangles as in Figure 5, but the mesh
-// of Figure 6. *The ridge on the layer is gone: the solution is flat zero there.* It does not oscillate, it does not
-// blow up, it looks perfectly reasonable, and it is wrong by 0.0457, the whole height of the ridge.
+// **The picture.** Figure 7: the same problem, the same element, about as many triangles as
+// in Figure 5, but the mesh of Figure 6. *The ridge on the layer is gone: the solution is
+// flat zero there.* It does not oscillate, it does not blow up, it looks perfectly
+// reasonable, and it is wrong by 0.0457, the whole height of the ridge.
 // :number: 0.0457 = line "the same of the truth {}"
 //
-// **Predict.** (a) Refine: $h = 1/64$ in place of $1/32$. How much smaller is the error at $ε = 10^{-6}$? (b) The body
-// does not know that its layer has locked. Which problem does it solve, then?
+// **Predict.** (a) Refine: $h = 1/64$ in place of $1/32$. How much smaller is the error at
+// $ε = 10^{-6}$? (b) The body does not know that its layer has locked. Which problem does
+// it solve, then?
 //
 // ## Why it locks
 //
-// The limit $ε → 0$ of the discrete problem at fixed $h$ is (27), the problem on $K_{0h} = K_h ∩ G_h$ (Proposition
-// 1). On this mesh all triangles of the layer are tied together, and every function of $G_h$ is 0 there (chapter 02).
-// So
+// The limit $ε → 0$ of the discrete problem at fixed $h$ is (27), the problem on
+// $K_{0h} = K_h ∩ G_h$ (Proposition 1). On this mesh all triangles of the layer are tied
+// together, and every function of $G_h$ is 0 there (chapter 02). So
 //
 // $$ u_h^ε → 0   \text{on the layer, as } ε → 0 \text{ with } h \text{ fixed.} $$
 //
@@ -34,44 +37,51 @@
 //
 // :figure: film_of_locking
 //
-// What is left for the body? On $Σ$ it must fit to a layer that is 0. It is "the solution to a standard Laplace
-// problem with an homogeneous Dirichlet boundary condition, without any connection to Problem (25)" (Section 4.1;
-// (25) is what (23) tends to, chapter 10).
+// What is left for the body? On $Σ$ it must fit to a layer that is 0. It is "the solution
+// to a standard Laplace problem with an homogeneous Dirichlet boundary condition, without
+// any connection to Problem (25)" (Section 4.1; (25) is what (23) tends to, chapter 10).
 //
 // ## How much is lost: one number per triangle
 //
-// At which $ε$ does it begin? Take a ridge, a function $w(x)$ on the layer, and its interpolant $I_h w$, which is
-// affine on each triangle and equal to $w$ at the corners. The exact ridge has no slope across the layer. Its
-// interpolant has one. Let the corners of a triangle $T$ lie at $x_1 ≤ x_2 ≤ x_3$, and go upright from the middle
-// corner to the opposite side, over a distance $d$. At the corner the interpolant is $w(x_2)$. At the side it is on
-// the chord from $w(x_1)$ to $w(x_3)$, which lies off $w(x_2)$ by $w'' (x_2 - x_1)(x_3 - x_2)/2$ if $w$ is a parabola.
-// The area is $|T| = d (x_3 - x_1)/2$. Divide by $d$:
+// At which $ε$ does it begin? Take a ridge, a function $w(x)$ on the layer, and its
+// interpolant $I_h w$, which is affine on each triangle and equal to $w$ at the corners.
+// The exact ridge has no slope across the layer. Its interpolant has one. Let the corners
+// of a triangle $T$ lie at $x_1 ≤ x_2 ≤ x_3$, and go upright from the middle corner to the
+// opposite side, over a distance $d$. At the corner the interpolant is $w(x_2)$. At the
+// side it is on the chord from $w(x_1)$ to $w(x_3)$, which lies off $w(x_2)$ by
+// $w'' (x_2 - x_1)(x_3 - x_2)/2$ if $w$ is a parabola. The area is $|T| = d (x_3 - x_1)/2$.
+// Divide by $d$:
 //
 // $$ |∂_y I_h w| = k_T |w''|,   k_T = \frac{(x_2 - x_1)(x_3 - x_2)(x_3 - x_1)}{4 |T|}. $$
 //
-// This is the formula $a b c / (4 |T|)$ of the radius of the circle through the corners, with the extents of the three
-// sides in $x$ in the place of their lengths. So $k_T$ is at most that radius, hence at most a constant times $h$ where
-// no angle is bad; and it is 0 if and only if two corners have the same $x$: *if and only if the triangle has a
-// vertical edge*.
+// This is the formula $a b c / (4 |T|)$ of the radius of the circle through the corners,
+// with the extents of the three sides in $x$ in the place of their lengths. So $k_T$ is at
+// most that radius, hence at most a constant times $h$ where no angle is bad; and it is 0
+// if and only if two corners have the same $x$: *if and only if the triangle has a vertical
+// edge*.
 //
 // :figure: slope
 //
-// Let $k$ be the root mean square of $k_T$ over the layer. The stiff form of the interpolant is then about
-// $(k/ε)^2 ‖w''‖^2$. This is the energy of bending: P1 turns the layer into a plate that the paper's layer is not.
-// Who wins, the load or the plate? Let the layer keep the share $s$ of its ridge, and let $u_D$ be the body with
-// $Σ$ clamped, which keeps nothing. With the moderate form $a_1$ put $E = a_1(u^0 - u_D, u^0 - u_D)$. Along
-// $u_D + s (u^0 - u_D)$ the energy without bending is $E (½ s^2 - s)$ above that of $u_D$: a parabola, least at $u^0$,
-// where $s = 1$. Bending adds $½ s^2 E x$. This $x$ is a number and not the place:
+// Let $k$ be the root mean square of $k_T$ over the layer. The stiff form of the
+// interpolant is then about $(k/ε)^2 ‖w''‖^2$. This is the energy of bending: P1 turns the
+// layer into a plate that the paper's layer is not. Who wins, the load or the plate? Let
+// the layer keep the share $s$ of its ridge, and let $u_D$ be the body with $Σ$ clamped,
+// which keeps nothing. With the moderate form $a_1$ put $E = a_1(u^0 - u_D, u^0 - u_D)$.
+// Along $u_D + s (u^0 - u_D)$ the energy without bending is $E (½ s^2 - s)$ above that of
+// $u_D$: a parabola, least at $u^0$, where $s = 1$. Bending adds $½ s^2 E x$. This $x$ is a
+// number and not the place:
 //
 // $$ x = \frac{‖∂_y I_h w‖^2}{ε^2 E} ≈ \frac{k^2 ‖w''‖^2}{ε^2 E},   E (½ (1 + x) s^2 - s) \text{ is least at }
 // s = \frac{1}{1 + x}. $$
 //
-// The discrete solution has the least energy of all functions, this trial function among them. Without bending the least
-// value, at $s = 1$, is $-E/2$: a layer that gives way sets the energy $E/2$ free. With bending the least value is $-E/(2
-// (1 + x))$. So P1 sets free at least the share $1/(1 + x)$ of it, up to what interpolation costs in the body and of
-// $∂_x$ in the layer: on regular meshes this tends to 0 with $h$. It is proved with contact, too: $u_D$ and $u^0$ are in
-// $K$, so what lies between them is. The contact pressure $λ$ of $u^0$ does no work on it, since $u_D = 0$ and $λ u^0 =
-// 0$ on $Γ_C$, so contact adds no term. Since $k ≤ c h$,
+// The discrete solution has the least energy of all functions, this trial function among
+// them. Without bending the least value, at $s = 1$, is $-E/2$: a layer that gives way sets
+// the energy $E/2$ free. With bending the least value is $-E/(2 (1 + x))$. So P1 sets free
+// at least the share $1/(1 + x)$ of it, up to what interpolation costs in the body and of
+// $∂_x$ in the layer: on regular meshes this tends to 0 with $h$. It is proved with
+// contact, too: $u_D$ and $u^0$ are in $K$, so what lies between them is. The contact
+// pressure $λ$ of $u^0$ does no work on it, since $u_D = 0$ and $λ u^0 = 0$ on $Γ_C$, so
+// contact adds no term. Since $k ≤ c h$,
 //
 // $$ \text{P1 loses at most, up to this, the share } \frac{x}{1 + x} \text{ of the energy } E/2,
 // x = (c h/ε)^2, \text{ on any regular mesh.} $$
@@ -115,27 +125,34 @@ double lost_to_kept(const TriangleMesh& mesh, double epsilon) {
 Table follow(const MeshFamily& family, int cells, const std::vector<double>& epsilons,
              const std::filesystem::path& film = {}) {
   const Space space = Method{&p1(), family}.space(cells);
-  Table table({"mesh", "k / h", "epsilon", "lost / kept, law", "kept, law", "kept", "kept / law"});
+  Table table(
+      {"mesh", "k / h", "epsilon", "lost / kept, law", "kept, law", "kept", "kept / law"});
   for (const double epsilon : epsilons) {
     const Scene scene = tutorial::paper_scene(epsilon);
     const Solution solution = active_set(assemble(scene, space));
-    const double kept = solution.u(space.contact_dofs()).maxCoeff() / tutorial::Exact(scene).solution.max_on_contact();
+    const double kept = solution.u(space.contact_dofs()).maxCoeff() /
+                        tutorial::Exact(scene).solution.max_on_contact();
     const double x = lost_to_kept(space.mesh(), epsilon);
-    table.add({family.name, bending_length(space.mesh()) * cells, epsilon, x, 1 / (1 + x), kept, kept * (1 + x)});
-    if (!film.empty()) write_vtu(film / fmt::format("film_{:g}.vtu", epsilon), space, solution.u);
+    table.add({family.name, bending_length(space.mesh()) * cells, epsilon, x, 1 / (1 + x),
+               kept, kept * (1 + x)});
+    if (!film.empty())
+      write_vtu(film / fmt::format("film_{:g}.vtu", epsilon), space, solution.u);
   }
   return table;
 }
 
-// The problem that the paper says the locked solution solves, with the same matrices: every unknown of the layer is
-// fixed to zero, and nothing is left to touch the obstacle.
+// The problem that the paper says the locked solution solves, with the same matrices: every
+// unknown of the layer is fixed to zero, and nothing is left to touch the obstacle.
 VariationalInequality dirichlet_laplace(VariationalInequality problem, const Space& space) {
   problem.dirichlet_dofs.clear();
   for (int i = 0; i < space.size(); ++i) {
-    const double x = space.dof_coordinates()(i, 0), y = space.dof_coordinates()(i, 1), round = 1e-12;
-    if (!(y > round && y < 1 - round && x > round && x < 1 - round)) problem.dirichlet_dofs.push_back(i);
+    const double x = space.dof_coordinates()(i, 0), y = space.dof_coordinates()(i, 1),
+                 round = 1e-12;
+    if (!(y > round && y < 1 - round && x > round && x < 1 - round))
+      problem.dirichlet_dofs.push_back(i);
   }
-  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
+  problem.dirichlet_values =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   problem.bounds = {};
   problem.b.resize(0, problem.size());  // the layer is at rest: no stress to carry
   problem.m.resize(0);
@@ -144,7 +161,9 @@ VariationalInequality dirichlet_laplace(VariationalInequality problem, const Spa
 
 // Largest |u| over the unknowns of the layer, Σ included.
 double largest_on_layer(const Space& space, const Eigen::VectorXd& u) {
-  return (space.dof_coordinates().col(1).array() <= 0).select(u.array().abs(), 0).maxCoeff();
+  return (space.dof_coordinates().col(1).array() <= 0)
+      .select(u.array().abs(), 0)
+      .maxCoeff();
 }
 
 void lock(const tutorial::Options& options, tutorial::Report& report) {
@@ -153,8 +172,8 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   // ### Forms
   VariationalInequality problem = assemble(tutorial::paper_scene(options.epsilon), space);
   // ### Solve
-  // Nothing is wrong with the solver: the conditions of the inequality hold to round-off. It is the discrete
-  // problem that has the wrong solution.
+  // Nothing is wrong with the solver: the conditions of the inequality hold to round-off.
+  // It is the discrete problem that has the wrong solution.
   const Solution solution = active_set(problem);
   const Solution dirichlet = active_set(dirichlet_laplace(problem, space));
   const tutorial::Exact exact(tutorial::paper_scene(options.epsilon));
@@ -163,7 +182,8 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   // ### Output
   const double on_layer = largest_on_layer(space, solution.u);
   const double difference = (solution.u - dirichlet.u).cwiseAbs().maxCoeff();
-  tutorial::present(options.out, exact.scene, {space, problem, solution}, "P1, unstructured", errors);
+  tutorial::present(options.out, exact.scene, {space, problem, solution},
+                    "P1, unstructured", errors);
   Table table({"", "value"});
   table.add({"largest |u| on the layer", on_layer});
   table.add({"the same of the truth", exact.solution.max_on_contact()});
@@ -174,38 +194,51 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   law.print("the law of the loss", 3);
   tutorial::draw_slopes(options.out, 16);
 
-  // The law is made without contact. Where nearly all is lost, contact leaves 1.46 times as much
-  // (below), and on this mesh u_h leans on the triangles with a vertical edge: up to 2.06 together.
-  // A tenth less than 1 is what the body's interpolation may take on 1/16 and finer.
+  // The law is made without contact. Where nearly all is lost, contact leaves 1.46 times as
+  // much (below), and on this mesh u_h leans on the triangles with a vertical edge: up to
+  // 2.06 together. A tenth less than 1 is what the body's interpolation may take on 1/16
+  // and finer.
   if (options.cells >= 16)
     report.claim(law.min("kept / law") > 0.9 && law.max("kept / law") < 2.2,
-                 "kept of the ridge, times 1 + (5.84 k / epsilon)^2: {:.2f} to {:.2f} from epsilon = 0.1 to 1e-4 "
+                 "kept of the ridge, times 1 + (5.84 k / epsilon)^2: {:.2f} to {:.2f} from "
+                 "epsilon = 0.1 to 1e-4 "
                  "(observed; accepted 0.9 to 2.2)",
                  law.min("kept / law"), law.max("kept / law"));
-  // Bending costs a^4 per wave sin ax, the string and the body under it a^2 + a coth a. 64 cells
-  // are right to 0.1 %.
-  const double plate = tutorial::rise_over_obstacle([](double a) { return std::pow(a, 4); }),
-               string = tutorial::rise_over_obstacle([](double a) { return a / std::tanh(a) + a * a; });
-  report.claim_within(plate / string, 1.44, 1.47,
-                      fmt::format("an obstacle lets a plate rise to {:.2f} and the string with its body to {:.2f} "
-                                  "times what they do without it (observed): quotient",
-                                  plate, string));
+  // Bending costs a^4 per wave sin ax, the string and the body under it a^2 + a coth a. 64
+  // cells are right to 0.1 %.
+  const double plate =
+                   tutorial::rise_over_obstacle([](double a) { return std::pow(a, 4); }),
+               string = tutorial::rise_over_obstacle(
+                   [](double a) { return a / std::tanh(a) + a * a; });
+  report.claim_within(
+      plate / string, 1.44, 1.47,
+      fmt::format(
+          "an obstacle lets a plate rise to {:.2f} and the string with its body to {:.2f} "
+          "times what they do without it (observed): quotient",
+          plate, string));
   const double x = options.epsilon > 0 ? lost_to_kept(space.mesh(), options.epsilon) : 1e30;
-  if (x < 1e4) return report.not_judged("whether the layer is clamped: it is where the law leaves less than 1e-4");
+  if (x < 1e4)
+    return report.not_judged(
+        "whether the layer is clamped: it is where the law leaves less than 1e-4");
   // What the solver leaves of u is 1e-10.
   double tallest = 0;
   for (const int i : space.contact_dofs())
     tallest = std::max(tallest, exact.table.value(space.dof_coordinates()(i, 0), -1));
   report.claim_within(std::abs(errors.max_at_unknowns - tallest), 0, on_layer + 1e-10,
-                      "Figure 7: the error less the ridge at its tallest unknown, against what is kept (proved):");
-  // Both solve the same equations on the body and differ on its boundary by what is left on the layer: a maximum
-  // principle (of Delaunay meshes), and the layer itself differs by that.
+                      "Figure 7: the error less the ridge at its tallest unknown, against "
+                      "what is kept (proved):");
+  // Both solve the same equations on the body and differ on its boundary by what is left on
+  // the layer: a maximum principle (of Delaunay meshes), and the layer itself differs by
+  // that.
   report.claim_within(difference, 0.999 * on_layer, 1.001 * on_layer + 1e-10,
-                      "difference from the Dirichlet-Laplace solution = largest |u| on the layer (proved):");
-  if (on_layer < 1e-9) return;  // ten times larger, epsilon must still be far below k, and u above round-off
+                      "difference from the Dirichlet-Laplace solution = largest |u| on the "
+                      "layer (proved):");
+  if (on_layer < 1e-9)
+    return;  // ten times larger, epsilon must still be far below k, and u above round-off
   problem.compliance *= 100;
   const double ten_times = largest_on_layer(space, active_set(problem).u);
-  report.claim_within(ten_times / on_layer, 99, 101, "ten times the epsilon keeps a hundred times as much (proved):");
+  report.claim_within(ten_times / on_layer, 99, 101,
+                      "ten times the epsilon keeps a hundred times as much (proved):");
 }
 
 // ## What came out
@@ -224,26 +257,31 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 // :number: 1.46 = line "(observed): quotient {}"
 // :number: 1.44 = table "the law of the loss" "kept / law" mesh=staggered
 //
-// (a) Not at all: the error is 4.57e-2 on both meshes (exercise 1 runs the finer one). By the law half of the ridge
-// comes back when $5.84 k$ falls to $10^{-6}$: on this generator's meshes at $1/h$ of some $10^4$, on Delaunay meshes
-// at some $7 · 10^5$. (b) It solves the problem of a body that is clamped on $Σ$ as well: the layer acts as a clamp.
+// (a) Not at all: the error is 4.57e-2 on both meshes (exercise 1 runs the finer one). By
+// the law half of the ridge comes back when $5.84 k$ falls to $10^{-6}$: on this
+// generator's meshes at $1/h$ of some $10^4$, on Delaunay meshes at some $7 · 10^5$. (b) It
+// solves the problem of a body that is clamped on $Σ$ as well: the layer acts as a clamp.
 // Neither the solver nor a look at the picture would tell.
 // :number: 4.57e-2 = line "P1, unstructured {}"
 //
 // ## Exercises
 //
-// 1. Refine from $1/h = 32$ to 64 at $ε = 10^{-6}$. What happens to the error, what to the small rest of the ridge?
-// 2. Keep the body's triangles, and put the layer into columns (the layered mesh of chapter 02). Does it lock?
-// 3. All triangles of the staggered mesh are alike, and a good mesh is what one would call it. At $ε = h/2$ and
-//    $1/h = 64$: which of the staggered, the Delaunay and this chapter's mesh keeps most of the ridge, and which least?
-// 4. `--epsilon 1e-2`: the method "locks already" there (caption of Figure 9). Predict by the law what is kept at
-//    `--cells 16` and at `--cells 64`, and check.
+// 1. Refine from $1/h = 32$ to 64 at $ε = 10^{-6}$. What happens to the error, what to the
+//    small rest of the ridge?
+// 2. Keep the body's triangles, and put the layer into columns (the layered mesh of chapter
+//    02). Does it lock?
+// 3. All triangles of the staggered mesh are alike, and a good mesh is what one would call
+//    it. At $ε = h/2$ and $1/h = 64$: which of the staggered, the Delaunay and this chapter's mesh keeps most of the ridge, and which least?
+// 4. `--epsilon 1e-2`: the method "locks already" there (caption of Figure 9). Predict by
+//    the law what is kept at `--cells 16` and at `--cells 64`, and check.
 // 5. On paper: for which loads is nothing lost on this mesh?
-// 6. On paper: the staggered mesh, but its rows twice as high, and twice as low. What is $k$, and which would you take?
+// 6. On paper: the staggered mesh, but its rows twice as high, and twice as low. What is
+//    $k$, and which would you take?
 
 #include "answers.hpp"
 
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "06_p1_unstructured", "Figure 7: P1 on an unstructured mesh locks",
+  return tutorial::run(argc, argv, "06_p1_unstructured",
+                       "Figure 7: P1 on an unstructured mesh locks",
                        {.exercises = exercises}, lock);
 }

@@ -11,8 +11,9 @@
 
 namespace antilock::tutorial {
 
-/// Solves min 1/2 s(u, u) - (sin 2 pi x, u) over u >= 0 on (0, 1), where the form s multiplies the
-/// wave sin ax, a = k pi, by `stiffness(a)`. Returns the largest u over that without an obstacle.
+/// Solves min 1/2 s(u, u) - (sin 2 pi x, u) over u >= 0 on (0, 1), where the form s
+/// multiplies the wave sin ax, a = k pi, by `stiffness(a)`. Returns the largest u over that
+/// without an obstacle.
 inline double rise_over_obstacle(const std::function<double(double)>& stiffness) {
   const int n = 63;
   const double pi = std::numbers::pi, h = 1.0 / (n + 1);
@@ -33,8 +34,8 @@ inline double rise_over_obstacle(const std::function<double(double)>& stiffness)
   return active_set(problem).u.maxCoeff() * symbol(1);
 }
 
-/// The slope d/dy of the interpolant of sin(2 pi x), triangle by triangle, on the meshes of two generators:
-/// slope_unstructured.vtu and slope_delaunay.vtu.
+/// The slope d/dy of the interpolant of sin(2 pi x), triangle by triangle, on the meshes of
+/// two generators: slope_unstructured.vtu and slope_delaunay.vtu.
 inline void draw_slopes(const std::filesystem::path& out, int cells) {
   for (const char* name : {"unstructured", "delaunay"}) {
     const TriangleMesh mesh = mesh_family(name).mesh(cells);

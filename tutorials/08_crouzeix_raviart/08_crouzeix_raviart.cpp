@@ -5,53 +5,67 @@
 // Run: 08_crouzeix_raviart --exercise 1
 // Run: 08_crouzeix_raviart --exercise 2
 //
-// Needs: [05](../05_p1_structured/05_p1_structured.cpp) ((27), Theorem 4), [06](../06_p1_unstructured/06_p1_unstructured.cpp), [07](../07_kernel/07_kernel.cpp) (kernel).
+// Needs: [05](../05_p1_structured/05_p1_structured.cpp) ((27), Theorem 4),
+// [06](../06_p1_unstructured/06_p1_unstructured.cpp), [07](../07_kernel/07_kernel.cpp)
+// (kernel).
 //
-// **The picture.** Figure 8: the mesh of Figure 6, on which P1 locks, and the ridge is there. *Crouzeix-Raviart did not
-// lock on any mesh that was tried. This page has the core of the proof that it cannot; three of its conditions are
-// checked in chapters 12 and 14.* Look closely: the triangles do not quite meet.
+// **The picture.** Figure 8: the mesh of Figure 6, on which P1 locks, and the ridge is
+// there. *Crouzeix-Raviart did not lock on any mesh that was tried. This page has the core
+// of the proof that it cannot; three of its conditions are checked in chapters 12 and 14.*
+// Look closely: the triangles do not quite meet.
 //
 // :figure: figure8
 //
-// **Predict.** (a) P1 takes over the values of a ridge $w(x)$ at the corners of a triangle, and gets a slope across the
-// layer (chapter 06). Crouzeix-Raviart takes over the means over the three edges. Which slope does it get? (b) The
-// truth is not negative on all of $Γ_C$. The solution of Crouzeix-Raviart is asked to be so at the midpoints of edges.
-// Is it so between them?
+// **Predict.** (a) P1 takes over the values of a ridge $w(x)$ at the corners of a triangle,
+// and gets a slope across the layer (chapter 06). Crouzeix-Raviart takes over the means
+// over the three edges. Which slope does it get? (b) The truth is not negative on all of
+// $Γ_C$. The solution of Crouzeix-Raviart is asked to be so at the midpoints of edges. Is
+// it so between them?
 //
 // ## The element, and the interpolation that makes it work
 //
-// $V_h^{nc}$ are the functions that are affine on each triangle, continuous at the midpoints of the edges, and 0 at
-// those on $Γ_D$: one unknown per edge, three halves per triangle (P1: half a vertex per triangle). Such a function
-// jumps, so it is not in $V$: the method is *nonconforming*, while P1 is *conforming*. The next picture shows one basis
-// function of each: P1's hat is 1 at a vertex and reaches over six triangles; that of Crouzeix-Raviart is 1 along an
-// edge, reaches over two triangles, and jumps at the other ends of both.
+// $V_h^{nc}$ are the functions that are affine on each triangle, continuous at the
+// midpoints of the edges, and 0 at those on $Γ_D$: one unknown per edge, three halves per
+// triangle (P1: half a vertex per triangle). Such a function jumps, so it is not in $V$:
+// the method is *nonconforming*, while P1 is *conforming*. The next picture shows one basis
+// function of each: P1's hat is 1 at a vertex and reaches over six triangles; that of
+// Crouzeix-Raviart is 1 along an edge, reaches over two triangles, and jumps at the other
+// ends of both.
 //
 // :figure: basis
 //
-// Integrals and norms are taken triangle by triangle (*broken*; $‖·‖_{1,Ω_h}$ is the broken norm), and contact is asked
-// at midpoints: $K_h^{nc} = \{ v ≥ 0 \text{ at the midpoints on } Γ_C \}$. $G_h^{nc}$ are the functions with
-// $∂_y v = 0$ on each triangle of the layer. With that, (23) becomes (29), and (27) becomes (30).
+// Integrals and norms are taken triangle by triangle (*broken*; $‖·‖_{1,Ω_h}$ is the broken
+// norm), and contact is asked at midpoints:
+// $K_h^{nc} = \{ v ≥ 0 \text{ at the midpoints on } Γ_C \}$. $G_h^{nc}$ are the functions
+// with $∂_y v = 0$ on each triangle of the layer. With that, (23) becomes (29), and (27)
+// becomes (30).
 //
-// **The interpolation** $I_h$ gives each midpoint the mean of $v$ over its edge. For an affine function the mean over
-// an edge is the value at its midpoint, so on each triangle $T$ with outward normal $n$, by Green's formula,
+// **The interpolation** $I_h$ gives each midpoint the mean of $v$ over its edge. For an
+// affine function the mean over an edge is the value at its midpoint, so on each triangle
+// $T$ with outward normal $n$, by Green's formula,
 //
 // $$ ∫_T ∇ I_h v = ∑_{E ⊂ ∂T} n_E ∫_E I_h v = ∑_{E ⊂ ∂T} n_E ∫_E v = ∫_T ∇ v. $$
 //
-// *The gradient of $I_h v$ is the mean of the gradient of $v$.* So if $v$ has no slope in one direction, $I_h v$ has
-// none either, on whatever triangle: this is why the element does not lock. **Lemma 2** of the paper says: $K_h^{nc}$
-// approaches $K$, and $K_{0h}^{nc} = K_h^{nc} ∩ G_h^{nc}$ approaches $K_0$. Its proof rests on three properties of
-// $I_h$:
+// *The gradient of $I_h v$ is the mean of the gradient of $v$.* So if $v$ has no slope in
+// one direction, $I_h v$ has none either, on whatever triangle: this is why the element
+// does not lock. **Lemma 2** of the paper says: $K_h^{nc}$ approaches $K$, and
+// $K_{0h}^{nc} = K_h^{nc} ∩ G_h^{nc}$ approaches $K_0$. Its proof rests on three properties
+// of $I_h$:
 //
-// - If $v ∈ K_0$, then $∂_y v = 0$ in the layer, and so $∂_y I_h v = 0$ on its triangles, on every mesh: $B I_h v = 0$.
-// - If $v ≥ 0$ on $Γ_C$, so are its means: $I_h v ≥ 0$ at the midpoints. Hence $I_h$ maps $K_0$ into $K_{0h}^{nc}$.
-// - $I_h v$ is near $v$, if $v$ is smooth in the body and in the layer ($|v|_2$: the size of its second derivatives):
+// - If $v ∈ K_0$, then $∂_y v = 0$ in the layer, and so $∂_y I_h v = 0$ on its triangles,
+//   on every mesh: $B I_h v = 0$.
+// - If $v ≥ 0$ on $Γ_C$, so are its means: $I_h v ≥ 0$ at the midpoints. Hence $I_h$ maps
+//   $K_0$ into $K_{0h}^{nc}$.
+// - $I_h v$ is near $v$, if $v$ is smooth in the body and in the layer ($|v|_2$: the size
+//   of its second derivatives):
 //
 // $$ ‖v - I_h v‖_{1,Ω_h} ≤ C h (|v|_{2,Ω^+} + |v|_{2,Ω^-}). \tag{32} $$
 //
-// Every function of $K$ or $K_0$ is a limit of smooth ones, so the first half of "approaches" follows (chapter 05). The
-// second half, on weak limits, is checked in [chapter 12](../12_contact_sets/12_contact_sets.cpp). Theorem 4 asks for two more things of
-// methods that jump, which [chapter 14](../14_estimates/14_estimates.cpp) checks. With these it applies, and asks nothing of the mesh
-// but good angles:
+// Every function of $K$ or $K_0$ is a limit of smooth ones, so the first half of
+// "approaches" follows (chapter 05). The second half, on weak limits, is checked in
+// [chapter 12](../12_contact_sets/12_contact_sets.cpp). Theorem 4 asks for two more things
+// of methods that jump, which [chapter 14](../14_estimates/14_estimates.cpp) checks. With
+// these it applies, and asks nothing of the mesh but good angles:
 //
 // $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^{nc,ε}‖_{1,Ω_h} = 0.   \text{(Theorem 7)} $$
 
@@ -67,17 +81,19 @@ Eigen::VectorXd edge_means(const Space& space, const Field& v) {
   Eigen::VectorXd means = Eigen::VectorXd::Zero(space.size());
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (int part = 0; part < 16; ++part)
-      for (const auto& [place, weight] :
-           {std::pair{0.5 - std::sqrt(0.15), 5.0}, {0.5, 8.0}, {0.5 + std::sqrt(0.15), 5.0}}) {
+      for (const auto& [place, weight] : {std::pair{0.5 - std::sqrt(0.15), 5.0},
+                                          {0.5, 8.0},
+                                          {0.5 + std::sqrt(0.15), 5.0}}) {
         const double t = (part + place) / 16;
-        const Eigen::RowVector2d at =
-            (1 - t) * mesh.vertices.row(mesh.edges(e, 0)) + t * mesh.vertices.row(mesh.edges(e, 1));
+        const Eigen::RowVector2d at = (1 - t) * mesh.vertices.row(mesh.edges(e, 0)) +
+                                      t * mesh.vertices.row(mesh.edges(e, 1));
         means(e) += weight / (18 * 16) * v(at.x(), at.y());
       }
   return means;
 }
 
-// Lemma 2 in numbers: strain and smallest value on $Γ_C$ of $I_h u^0$, and its distance from $u^0$, the truth.
+// Lemma 2 in numbers: strain and smallest value on $Γ_C$ of $I_h u^0$, and its distance
+// from $u^0$, the truth.
 Table interpolate(const std::vector<int>& cells, const Element& element) {
   const tutorial::Exact limit(tutorial::paper_scene(0));
   Table table({"cells", "h", "strain", "smallest", "distance"});
@@ -89,7 +105,8 @@ Table interpolate(const std::vector<int>& cells, const Element& element) {
     interpolated.u = element.conforming() ? interpolant(space, u0) : edge_means(space, u0);
     interpolated.p = Eigen::VectorXd::Zero(problem.b.rows());
     table.add({n, 1.0 / n, (problem.b * interpolated.u).lpNorm<Eigen::Infinity>(),
-               interpolated.u(space.contact_dofs()).minCoeff(), limit.errors(space, interpolated).h1});
+               interpolated.u(space.contact_dofs()).minCoeff(),
+               limit.errors(space, interpolated).h1});
   }
   return table;
 }
@@ -102,40 +119,57 @@ void nonconforming(const tutorial::Options& options, tutorial::Report& report) {
   // ### Forms
   // The scene does not know the element.
   const Scene scene = tutorial::paper_scene(options.epsilon);
-  const VariationalInequality p1_problem = assemble(scene, conforming), problem = assemble(scene, space);
+  const VariationalInequality p1_problem = assemble(scene, conforming),
+                              problem = assemble(scene, space);
   // ### Solve
   const Solution p1_solution = active_set(p1_problem), solution = active_set(problem);
   const tutorial::Exact exact(tutorial::paper_scene(options.epsilon));
-  const Errors p1_errors = exact.errors(conforming, p1_solution), errors = exact.errors(space, solution);
+  const Errors p1_errors = exact.errors(conforming, p1_solution),
+               errors = exact.errors(space, solution);
   const Table lemma = interpolate({8, 16, 32, 64}, crouzeix_raviart());
 
   // ### Output
   tutorial::print_errors("P1", p1_errors);
-  tutorial::present(options.out, exact.scene, {space, problem, solution}, "Crouzeix-Raviart", errors);
+  tutorial::present(options.out, exact.scene, {space, problem, solution},
+                    "Crouzeix-Raviart", errors);
   lemma.print("Lemma 2: the interpolant of u^0 on unstructured meshes");
   lemma.write(options.out / "interpolant.csv");
   tutorial::draw_basis_functions(options.out);
 
   const double h = 1.0 / options.cells, jump = tutorial::largest_jump(space, solution.u);
-  // 6e-9 of the truth's table and (h/16)^3 of Gauss's rule where u'' jumps, both over an edge h = 1/8 ... 1/64: 1e-7
-  report.claim_within(lemma.max("strain"), 0, 1e-6, "Lemma 2 (proved): largest |B I_h u^0|:");
-  report.claim(lemma.min("smallest") >= -1e-8,
-               "Lemma 2 (proved): I_h u^0 >= 0 at the midpoints on Gamma_C (smallest {:.1e})", lemma.min("smallest"));
-  report.claim_order(lemma, "distance", "h", 0.9, 1.05, "(32): |u^0 - I_h u^0|, order 1 proved");
+  // 6e-9 of the truth's table and (h/16)^3 of Gauss's rule where u'' jumps, both over an
+  // edge h = 1/8 ... 1/64: 1e-7
+  report.claim_within(lemma.max("strain"), 0, 1e-6,
+                      "Lemma 2 (proved): largest |B I_h u^0|:");
+  report.claim(
+      lemma.min("smallest") >= -1e-8,
+      "Lemma 2 (proved): I_h u^0 >= 0 at the midpoints on Gamma_C (smallest {:.1e})",
+      lemma.min("smallest"));
+  report.claim_order(lemma, "distance", "h", 0.9, 1.05,
+                     "(32): |u^0 - I_h u^0|, order 1 proved");
   // h^2 / 8 |u''| with |u''| <= 10 would be 1.25 h^2 for P1's interpolant
-  report.claim_within(errors.max_at_unknowns / (h * h), 0.4, 2, "Figure 8 matches the truth; error / h^2 (observed):");
-  // A step is h/2 times a jump of the gradient: like h^2, and at the end of contact like h^(3/2) where h << epsilon.
-  report.claim_within(jump / (h * std::sqrt(h)), 0, 1.5, "largest step between triangles / h^(3/2) (observed):");
-  // P1 keeps 1/(1 + (5.84 k / epsilon)^2) of the ridge (chapter 06), and its top lies between two unknowns.
+  report.claim_within(errors.max_at_unknowns / (h * h), 0.4, 2,
+                      "Figure 8 matches the truth; error / h^2 (observed):");
+  // A step is h/2 times a jump of the gradient: like h^2, and at the end of contact like
+  // h^(3/2) where h << epsilon.
+  report.claim_within(jump / (h * std::sqrt(h)), 0, 1.5,
+                      "largest step between triangles / h^(3/2) (observed):");
+  // P1 keeps 1/(1 + (5.84 k / epsilon)^2) of the ridge (chapter 06), and its top lies
+  // between two unknowns.
   const double ridge = exact.solution.max_on_contact();
   if (options.epsilon <= 0.01 * h && options.cells >= 16)
-    report.claim_within(p1_errors.max_at_unknowns / ridge, 0.97, 1.01,
-                        fmt::format("Crouzeix-Raviart misses {:.3f} of the ridge, and P1 all of it (observed):",
-                                    errors.max_at_unknowns / ridge));
+    report.claim_within(
+        p1_errors.max_at_unknowns / ridge, 0.97, 1.01,
+        fmt::format(
+            "Crouzeix-Raviart misses {:.3f} of the ridge, and P1 all of it (observed):",
+            errors.max_at_unknowns / ridge));
   else
-    report.not_judged("P1 against Crouzeix-Raviart: P1 locks for epsilon <= h/100, and 16 cells tell them apart");
+    report.not_judged(
+        "P1 against Crouzeix-Raviart: P1 locks for epsilon <= h/100, and 16 cells tell "
+        "them apart");
   const double from = contact_zone({space, problem, solution}).from.value_or(1);
-  report.claim_within((from - exact.contact_from()) / h, -1.5, 1.5, "start of contact - truth, in cells:");
+  report.claim_within((from - exact.contact_from()) / h, -1.5, 1.5,
+                      "start of contact - truth, in cells:");
 }
 
 // ## What came out
@@ -144,20 +178,24 @@ void nonconforming(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :output: Lemma 2
 //
-// (a) None, on any triangle. (b) No: it is nonnegative at the midpoints on $Γ_C$, and may be a
-// little below 0 at the ends of an edge, where it jumps. So $K_h^{nc}$ is not in $K$. This, and the jumps, are the
-// price (chapter 14); the three times as many unknowns are the other one (chapter 21).
+// (a) None, on any triangle. (b) No: it is nonnegative at the midpoints on $Γ_C$, and may
+// be a little below 0 at the ends of an edge, where it jumps. So $K_h^{nc}$ is not in $K$.
+// This, and the jumps, are the price (chapter 14); the three times as many unknowns are the
+// other one (chapter 21).
 //
 // ## Exercises
 //
-// 1. Interpolate $u^0$ with P1, values at the vertices of the same meshes. Is $B I_h u^0 = 0$?
+// 1. Interpolate $u^0$ with P1, values at the vertices of the same meshes. Is
+//    $B I_h u^0 = 0$?
 // 2. On the structured mesh of $1/h = 32$ the largest error at an unknown is 1.03e-3, at
 //    $ε = 10^{-6}$. Predict it on 64. Then on 64 at $ε = 0$, and at $10^{-2}$.
-// 3. On paper: why is P1's interpolation no substitute in the proof? Which of the three means over edges does it keep?
+// 3. On paper: why is P1's interpolation no substitute in the proof? Which of the three
+//    means over edges does it keep?
 
 #include "answers.hpp"
 
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "08_crouzeix_raviart", "Figure 8: Crouzeix-Raviart does not lock on any mesh",
+  return tutorial::run(argc, argv, "08_crouzeix_raviart",
+                       "Figure 8: Crouzeix-Raviart does not lock on any mesh",
                        {.exercises = exercises}, nonconforming);
 }

@@ -4,39 +4,45 @@
 // Run: 10_limits --cells 64
 // Run: 10_limits --exercise 1
 //
-// Needs: [01](../01_domain/01_domain.cpp) ((22), (23)), [03](../03_by_hand/03_by_hand.cpp) ($p$), [04](../04_reference_solution/04_reference_solution.cpp) (the symbol),
+// Needs: [01](../01_domain/01_domain.cpp) ((22), (23)), [03](../03_by_hand/03_by_hand.cpp)
+// ($p$), [04](../04_reference_solution/04_reference_solution.cpp) (the symbol),
 // [05](../05_p1_structured/05_p1_structured.cpp) (weak limits).
 //
-// **The picture.** A layer of thickness 0.1 in three models: as it is (22), stretched (23), and with its limit in its
-// place (25), which is the subject of this chapter. The first two are the same problem, and so one curve.
+// **The picture.** A layer of thickness 0.1 in three models: as it is (22), stretched (23),
+// and with its limit in its place (25), which is the subject of this chapter. The first two
+// are the same problem, and so one curve.
 //
-// **Predict.** (a) The factor $ε^{-2}$ in front of the stiff form grows. Does the energy $ε^{-2} a_y^-(u^ε, u^ε)$ grow
-// with it, tend to a number, or tend to 0? (b) The limit model has no mesh for the layer. What does it put on $Σ$ in its
-// place?
+// **Predict.** (a) The factor $ε^{-2}$ in front of the stiff form grows. Does the energy
+// $ε^{-2} a_y^-(u^ε, u^ε)$ grow with it, tend to a number, or tend to 0? (b) The limit
+// model has no mesh for the layer. What does it put on $Σ$ in its place?
 //
 // ## Theorem 1: where $u^ε$ goes
 //
-// The paper treats a class of problems at once. Its parameter stands for $ε^2$ of (23); call it $ε_c$. There are a
-// moderate form $a_1$, a stiff form $a_0$ and a convex set $K$:
+// The paper treats a class of problems at once. Its parameter stands for $ε^2$ of (23);
+// call it $ε_c$. There are a moderate form $a_1$, a stiff form $a_0$ and a convex set $K$:
 //
 // $$ u^ε ∈ K,  a_1(u^ε, v - u^ε) + ε_c^{-1} a_0(u^ε, v - u^ε) ≥ L(v - u^ε)  ∀ v ∈ K. \tag{1} $$
 //
-// The limit lives in $K_0 = K ∩ G$: what the obstacle allows, and what $a_0$ does not see. The limit problem is
+// The limit lives in $K_0 = K ∩ G$: what the obstacle allows, and what $a_0$ does not see.
+// The limit problem is
 //
 // $$ u^0 ∈ K_0,  a_1(u^0, w - u^0) ≥ L(w - u^0)  ∀ w ∈ K_0. \tag{2} $$
 //
-// **Theorem 1.** $u^ε → u^0$ in the norm of $V$. (For (23) the paper calls this Proposition 5.) The proof has three
-// steps. It needs that the form $a^ε = a_1 + ε_c^{-1} a_0$ controls the norm, with one $α > 0$ for all $ε$ (it is
+// **Theorem 1.** $u^ε → u^0$ in the norm of $V$. (For (23) the paper calls this Proposition
+// 5.) The proof has three steps. It needs that the form $a^ε = a_1 + ε_c^{-1} a_0$ controls
+// the norm, with one $α > 0$ for all $ε$ (it is
 // *coercive*): $a^ε(v, v) ≥ α ‖v‖^2$.
 //
-// **1. The solutions are bounded.** Take a fixed $v_0$ of $K_0$ as test function in (1). The stiff form does not see it, so
-// it costs nothing at any ε. With the difference $d = u^ε - v_0$, (1) becomes
+// **1. The solutions are bounded.** Take a fixed $v_0$ of $K_0$ as test function in (1).
+// The stiff form does not see it, so it costs nothing at any ε. With the difference
+// $d = u^ε - v_0$, (1) becomes
 //
 // $$ α ‖d‖^2 ≤ a^ε(d, d) ≤ L(d) - a_1(v_0, d). $$
 //
-// On the left stands the square of the size of $d$, on the right its first power. So $d$ cannot be large, and the solutions
-// are bounded. The middle is bounded then, too, and it contains $ε_c^{-1} a_0(u^ε, u^ε)$. So the stiff form of the solutions,
-// without its factor, is at most $C ε_c$: it tends to 0.
+// On the left stands the square of the size of $d$, on the right its first power. So $d$
+// cannot be large, and the solutions are bounded. The middle is bounded then, too, and it
+// contains $ε_c^{-1} a_0(u^ε, u^ε)$. So the stiff form of the solutions, without its
+// factor, is at most $C ε_c$: it tends to 0.
 //
 // **2. A weak limit solves (2).** A bounded family has a sequence that converges weakly, as
 // chapter 05's sawteeth do; call the limit $w^0$. Three things are known of weak limits. A
@@ -47,8 +53,9 @@
 //
 // $$ 0 ≤ a_0(u^ε - w^0, u^ε - w^0) = a_0(u^ε, u^ε) - 2 a_0(u^ε, w^0) + a_0(w^0, w^0). $$
 //
-// The middle term tends to $-2 a_0(w^0, w^0)$, so $a_0(w^0, w^0) ≤ \lim a_0(u^ε, u^ε) = 0$: the limit is in $G$, and so
-// in $K_0$. Now test (1) with a $w$ of $K_0$, and leave out $-ε_c^{-1} a_0(u^ε, u^ε)$ on the left, which is not positive:
+// The middle term tends to $-2 a_0(w^0, w^0)$, so $a_0(w^0, w^0) ≤ \lim a_0(u^ε, u^ε) = 0$:
+// the limit is in $G$, and so in $K_0$. Now test (1) with a $w$ of $K_0$, and leave out
+// $-ε_c^{-1} a_0(u^ε, u^ε)$ on the left, which is not positive:
 //
 // $$ a_1(u^ε, w) - a_1(u^ε, u^ε) ≥ L(w - u^ε). $$
 //
@@ -62,9 +69,10 @@
 //
 // $$ α ‖u^ε - u^0‖^2 ≤ a^ε(u^ε - u^0, u^ε - u^0) ≤ L(u^ε - u^0) - a_1(u^0, u^ε - u^0) → 0. \tag{5} $$
 //
-// The right side holds the difference only in products with something fixed, so the weak limit is enough. (5) says more than
-// convergence in the norm. Its stiff part is $ε^{-2} a_y^-(u^ε, u^ε) = ε^2 ‖p‖^2$, with the norm of $L^2$ in the layer: this
-// tends to 0, too.
+// The right side holds the difference only in products with something fixed, so the weak
+// limit is enough. (5) says more than convergence in the norm. Its stiff part is
+// $ε^{-2} a_y^-(u^ε, u^ε) = ε^2 ‖p‖^2$, with the norm of $L^2$ in the layer: this tends to
+// 0, too.
 //
 // **How fast?** The theorem does not say. Chapter 04's symbol does. What follows is an
 // estimate and not a proof: it takes the same contact set for both solutions. A layer of
@@ -92,17 +100,18 @@ Table exact_way(const Exact& limit) {  // of the exact solution, no mesh
     const double epsilon = std::pow(10.0, -0.5 * k);
     const ExactSolution u(paper_sine_load(), epsilon, true, 15);
     const double stiff = std::pow(epsilon * stress_norm(u), 2);
-    rows.add(
-        {epsilon, h1_distance(u, limit.solution), stiff, stiff / std::pow(epsilon * stress_norm(limit.solution), 2)});
+    rows.add({epsilon, h1_distance(u, limit.solution), stiff,
+              stiff / std::pow(epsilon * stress_norm(limit.solution), 2)});
   }
   return rows;
 }
 
 // ## Remark 5: the limit is a string on $Σ$
 //
-// A function of $K_0$ does not vary across the layer. So it is known as soon as it is known on the body: below $Σ$ it
-// goes on with the values that it has on $Σ$, its *trace*. The layer has the depth 1, so $a_x^-(u, w) = ∫_Σ u' w'$ for
-// $u$ and $w$ of $K_0$. Integrate (2) by parts. In the body $-Δu = f$ is left, on $Σ$
+// A function of $K_0$ does not vary across the layer. So it is known as soon as it is known
+// on the body: below $Σ$ it goes on with the values that it has on $Σ$, its *trace*. The
+// layer has the depth 1, so $a_x^-(u, w) = ∫_Σ u' w'$ for $u$ and $w$ of $K_0$. Integrate
+// (2) by parts. In the body $-Δu = f$ is left, on $Σ$
 //
 // $$ ∫_Σ r (w - u) ≥ 0 \text{ for all } w ≥ 0,   r = ∂_n u - u_{xx}. $$
 //
@@ -110,8 +119,9 @@ Table exact_way(const Exact& limit) {  // of the exact solution, no mesh
 //
 // $$ -Δu = f \text{ in } Ω^+,   u ≥ 0,   r ≥ 0,   u r = 0 \text{ on } Σ. \tag{25} $$
 //
-// This is the *Ventcel–Signorini problem*: $u_{xx}$ is a string on $Σ$, $∂_n u$ the body that pulls at it, and $r$ the
-// push of the obstacle. So there are three models. (22) has a thin layer, (23) the same one stretched, (25) none.
+// This is the *Ventcel–Signorini problem*: $u_{xx}$ is a string on $Σ$, $∂_n u$ the body
+// that pulls at it, and $r$ the push of the obstacle. So there are three models. (22) has a
+// thin layer, (23) the same one stretched, (25) none.
 Table on_sigma(const ExactSolution& limit) {
   Table table({"x", "u", "r", "pressure"});
   for (int j = 0; j <= 400; ++j) {
@@ -121,27 +131,34 @@ Table on_sigma(const ExactSolution& limit) {
   return table;
 }
 
-void judge_ventcel(const Table& sigma, const Exact& limit, int cells, tutorial::Report& report) {
-  // Away from the end of contact, where u_xx jumps and its series rings. What the sum of 2^15 waves leaves of u = 0, r = 0
-  // and u r = 0 is 1e-12, 4e-8 and 2e-9: ten times that.
+void judge_ventcel(const Table& sigma, const Exact& limit, int cells,
+                   tutorial::Report& report) {
+  // Away from the end of contact, where u_xx jumps and its series rings. What the sum of
+  // 2^15 waves leaves of u = 0, r = 0 and u r = 0 is 1e-12, 4e-8 and 2e-9: ten times that.
   const double end = limit.contact_from();
   double product = 0, pressure = 0, free = 0;
-  for (const Table& point : sigma.filter_number("x", [&](double x) { return std::abs(x - end) > 0.005; }).rows()) {
+  for (const Table& point :
+       sigma.filter_number("x", [&](double x) { return std::abs(x - end) > 0.005; })
+           .rows()) {
     const double u = point.number("u"), r = point.number("r");
     product = std::max(product, std::abs(u * r));
     pressure = std::max(pressure, std::abs(r - point.number("pressure")));
     if (point.number("x") < end) free = std::max(free, std::abs(r));
   }
   report.claim(sigma.min("u") > -1e-11 && sigma.min("r") > -4e-7 && product < 2e-8,
-               "(25): u >= {:.0e}, r >= {:.0e} (largest {:.2f}), |u r| <= {:.0e} (proved)", sigma.min("u"),
-               sigma.min("r"), sigma.max("r"), product);
-  report.claim(free < 4e-7 && pressure < 1e-5,
-               "(25): |r| <= {:.0e} where u > 0; r is the contact pressure to {:.0e} (proved)", free, pressure);
-  // In columns a function of K_0h is known by its trace on Sigma, and its layer has the energy of
-  // P1's string. So the discrete limit is the discrete (25).
+               "(25): u >= {:.0e}, r >= {:.0e} (largest {:.2f}), |u r| <= {:.0e} (proved)",
+               sigma.min("u"), sigma.min("r"), sigma.max("r"), product);
+  report.claim(
+      free < 4e-7 && pressure < 1e-5,
+      "(25): |r| <= {:.0e} where u > 0; r is the contact pressure to {:.0e} (proved)", free,
+      pressure);
+  // In columns a function of K_0h is known by its trace on Sigma, and its layer has the
+  // energy of P1's string. So the discrete limit is the discrete (25).
   const double apart = tutorial::against_ventcel(cells);
-  report.claim(apart < 1e-13, "on a mesh: u_h^0 with a layer and the string without one agree to {:.0e} (proved)",
-               apart);
+  report.claim(
+      apart < 1e-13,
+      "on a mesh: u_h^0 with a layer and the string without one agree to {:.0e} (proved)",
+      apart);
 }
 
 void limits(const tutorial::Options& options, tutorial::Report& report) {
@@ -155,25 +172,34 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
   way.print("the exact solution on its way to the limit");
   tutorial::write_limits(options.out, way, sigma, models);
 
-  const Table small = way.filter_number("epsilon", [](double epsilon) { return epsilon < 4e-3; });
-  report.claim_order(small, "distance", "epsilon", 1.45, 1.65, "Theorem 1 (proved), the order 3/2 (observed)");
-  report.claim_within(small.pairwise_orders("distance", "epsilon").back(), 1.48, 1.53, "its last step (observed):");
+  const Table small =
+      way.filter_number("epsilon", [](double epsilon) { return epsilon < 4e-3; });
+  report.claim_order(small, "distance", "epsilon", 1.45, 1.65,
+                     "Theorem 1 (proved), the order 3/2 (observed)");
+  report.claim_within(small.pairwise_orders("distance", "epsilon").back(), 1.48, 1.53,
+                      "its last step (observed):");
   // p tends to p^0 like epsilon^(1/2): it jumps on Gamma_C
-  report.claim_within(small.last("stiff / (epsilon |p^0|)^2"), 0.98, 1.01, "(5): its stiff part / (epsilon |p^0|)^2:");
+  report.claim_within(small.last("stiff / (epsilon |p^0|)^2"), 0.98, 1.01,
+                      "(5): its stiff part / (epsilon |p^0|)^2:");
   judge_ventcel(sigma, limit, options.cells, report);
-  // (22) and (23) are one problem: between them is the mesh, of second order. The thin layer has 2 rows of cells at
-  // 1/h = 16 and 3 at 32, and (2/3)^2 = 0.44.
+  // (22) and (23) are one problem: between them is the mesh, of second order. The thin
+  // layer has 2 rows of cells at 1/h = 16 and 3 at 32, and (2/3)^2 = 0.44.
   const double here = tutorial::most_apart(models, "thin", "scaled"),
-               coarser = tutorial::most_apart(tutorial::three_models(0.1, options.cells / 2), "thin", "scaled");
+               coarser = tutorial::most_apart(
+                   tutorial::three_models(0.1, options.cells / 2), "thin", "scaled");
   if (options.cells < 32)
-    report.not_judged("(22) against (23): the thin layer has two rows of cells, here and at 2 h");
+    report.not_judged(
+        "(22) against (23): the thin layer has two rows of cells, here and at 2 h");
   else
-    report.claim(here < 0.5 * coarser,
-                 "(22) and (23) at epsilon = 0.1: {:.1e} apart on Gamma_C, {:.1e} at 2 h (proved)", here, coarser);
+    report.claim(
+        here < 0.5 * coarser,
+        "(22) and (23) at epsilon = 0.1: {:.1e} apart on Gamma_C, {:.1e} at 2 h (proved)",
+        here, coarser);
   double exact = 0;  // |u^0.1 - u^0| on Gamma_C
   for (int i = 1; i < options.cells; ++i) {
     const double x = static_cast<double>(i) / options.cells;
-    exact = std::max(exact, std::abs(thick.solution.value(x, -1) - limit.solution.value(x, -1)));
+    exact = std::max(exact,
+                     std::abs(thick.solution.value(x, -1) - limit.solution.value(x, -1)));
   }
   report.claim_within(tutorial::most_apart(models, "scaled", "limit") / exact, 0.9, 1.1,
                       "(25) is as far from them as u^0 from u^0.1 (proved): times");
@@ -184,15 +210,16 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :figure: way
 //
-// (a) It tends to 0, like $ε^2$, since $p$ has a limit: a finite stress on a slope that vanishes does no work. The order
-// of $u^ε - u^0$ tends to 3/2 from above.
+// (a) It tends to 0, like $ε^2$, since $p$ has a limit: a finite stress on a slope that
+// vanishes does no work. The order of $u^ε - u^0$ tends to 3/2 from above.
 //
-// (b) A string. The picture shows both factors of (25). Where $u^0 > 0$ nothing pushes; where $r > 0$ nothing moves. At
-// the end of contact $r$ jumps, and this is what the order 3/2 is made of.
+// (b) A string. The picture shows both factors of (25). Where $u^0 > 0$ nothing pushes;
+// where $r > 0$ nothing moves. At the end of contact $r$ jumps, and this is what the order
+// 3/2 is made of.
 // :figure: ventcel_signorini
 //
-// (25) is the limit and not the layer: at $ε = 0.1$ (22) and (23) are 1e-4 apart, each on its mesh, and (25) is 4.5e-3
-// from both. Chapter 23 asks when this is good enough.
+// (25) is the limit and not the layer: at $ε = 0.1$ (22) and (23) are 1e-4 apart, each on
+// its mesh, and (25) is 4.5e-3 from both. Chapter 23 asks when this is good enough.
 // :number: 1e-4 = line "(22) and (23) at epsilon = 0.1: {} apart"
 // :live: models
 //
@@ -202,12 +229,18 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
 // ## Exercises
 //
 // 1. Take the obstacle away. Which order has $‖u^ε - u^0‖$ now?
-// 2. On paper: $v = 0$ and $v = 2u^ε$ in (23) give $a^ε(u^ε, u^ε) = L(u^ε)$. Which bound on $ε ‖p‖$ follows?
+// 2. On paper: $v = 0$ and $v = 2u^ε$ in (23) give $a^ε(u^ε, u^ε) = L(u^ε)$. Which bound on
+//    $ε ‖p‖$ follows?
 // 3. On paper: derive (25) from (2) by parts.
 
 #include "answers.hpp"
 
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "10_limits", "Theorem 1, Proposition 5, Remark 5: the limit epsilon -> 0",
-                       {.takes_epsilon = false, .least_cells = 16, .most_cells = 256, .exercises = exercises}, limits);
+  return tutorial::run(argc, argv, "10_limits",
+                       "Theorem 1, Proposition 5, Remark 5: the limit epsilon -> 0",
+                       {.takes_epsilon = false,
+                        .least_cells = 16,
+                        .most_cells = 256,
+                        .exercises = exercises},
+                       limits);
 }

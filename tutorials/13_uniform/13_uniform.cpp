@@ -4,16 +4,18 @@
 // Run: 13_uniform --cells 64
 // Run: 13_uniform --exercise 1
 //
-// Needs: [09](../09_convergence/09_convergence.cpp) (orders), [11](../11_propositions/11_propositions.cpp) (Propositions 2 and 3),
+// Needs: [09](../09_convergence/09_convergence.cpp) (orders),
+// [11](../11_propositions/11_propositions.cpp) (Propositions 2 and 3),
 // [12](../12_contact_sets/12_contact_sets.cpp) (approaches).
 //
-// **The picture.** What P1 loses of the layer's displacement over what it keeps, over the plane of ε and $h$, on four
-// families of meshes. *Yellow: nearly all is lost. Dark: nearly nothing. Each family has a border of its own, or none.*
+// **The picture.** What P1 loses of the layer's displacement over what it keeps, over the
+// plane of ε and $h$, on four families of meshes. *Yellow: nearly all is lost. Dark: nearly
+// nothing. Each family has a border of its own, or none.*
 //
 // :figure: locking_map
 //
-// **Predict.** Take the worst error of P1 on the unstructured mesh over all ε in an interval. (a) Does it tend to 0
-// with $h$ on $[0.1, 1]$? (b) And on $]0, 1]$?
+// **Predict.** Take the worst error of P1 on the unstructured mesh over all ε in an
+// interval. (a) Does it tend to 0 with $h$ on $[0.1, 1]$? (b) And on $]0, 1]$?
 //
 // ## Limit and supremum do not commute
 //
@@ -44,16 +46,18 @@
 //
 // ## Away from 0, and near it
 //
-// **Proposition 4.** On $[ε_0, 1]$ with $ε_0 > 0$ every method with $K_h → K$ converges uniformly. Nothing is stiff
-// there, because $ε^{-2}$ is at most $ε_0^{-2}$. Take two values ε and $\bar ε$ of the interval. Put $u_h^{\bar ε}$ into
-// the inequality for ε, and $u_h^ε$ into that for $\bar ε$, and add. With $α > 0$ the constant in
+// **Proposition 4.** On $[ε_0, 1]$ with $ε_0 > 0$ every method with $K_h → K$ converges
+// uniformly. Nothing is stiff there, because $ε^{-2}$ is at most $ε_0^{-2}$. Take two
+// values ε and $\bar ε$ of the interval. Put $u_h^{\bar ε}$ into the inequality for ε, and
+// $u_h^ε$ into that for $\bar ε$, and add. With $α > 0$ the constant in
 // $a^ε(v_h, v_h) ≥ α ‖v_h‖_h^2$ (chapter 14 computes it),
 //
 // $$ α ‖u_h^{\bar ε} - u_h^ε‖_h^2 ≤ (ε^{-2} - \bar ε^{-2}) a_0(u_h^{\bar ε}, u_h^{\bar ε} - u_h^ε). $$
 //
-// The right side is small if ε and $\bar ε$ are near each other. How near they must be depends on $ε_0$, and not on the
-// mesh: that is the point. The same lines hold for $u^ε$. So finitely many values of ε stand for all others, on all meshes
-// at once, and at each of these finitely many the method converges.
+// The right side is small if ε and $\bar ε$ are near each other. How near they must be
+// depends on $ε_0$, and not on the mesh: that is the point. The same lines hold for $u^ε$.
+// So finitely many values of ε stand for all others, on all meshes at once, and at each of
+// these finitely many the method converges.
 //
 // **Theorem 4.** *If $K_h$ approaches $K$ and $K_{0h}$ approaches $K_0$, the method is
 // robust.* (It needs (H0nc) and (H1nc) as well, which conforming methods have for nothing
@@ -65,19 +69,24 @@
 // Proposition 4. If $\bar ε = 0$, both $h$ and ε tend to 0, and it contradicts Proposition
 // 3.
 //
-// **Theorem 5** is Theorem 4 for P1 on the structured mesh. In the layer the interpolant of a smooth $v ∈ K_0$ takes
-// one value per vertical line, so it is in $K_{0h}$. Smooth $v$ are enough, by Lemma 1. **Theorem 7** is Theorem 4
-// for Crouzeix–Raviart on any mesh with good angles, by Lemma 2 ([chapter 08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp)). **Remark 4** says
-// the same in the energy seminorm $|v|_{a^ε} = a^ε(v, v)^{1/2}$, in which the layer's slope counts $ε^{-1}$ times.
+// **Theorem 5** is Theorem 4 for P1 on the structured mesh. In the layer the interpolant of
+// a smooth $v ∈ K_0$ takes one value per vertical line, so it is in $K_{0h}$. Smooth $v$
+// are enough, by Lemma 1. **Theorem 7** is Theorem 4 for Crouzeix–Raviart on any mesh with
+// good angles, by Lemma 2
+// ([chapter 08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp)). **Remark 4** says the
+// same in the energy seminorm $|v|_{a^ε} = a^ε(v, v)^{1/2}$, in which the layer's slope
+// counts $ε^{-1}$ times.
 //
-// None of the theorems has a rate. The orders below are measured. On columns order $h$ in the energy seminorm is proved
-// in [a chapter of its own](../20_order_h/20_order_h.cpp). For CR on any mesh with good angles $h^{1/2}$ is proved there. Order $h$
-// does not hold on all of them: on rows of triangles, which are not among the meshes below, the order at ε = 0 is at
-// most 3/4 (same chapter).
+// None of the theorems has a rate. The orders below are measured. On columns order $h$ in
+// the energy seminorm is proved in [a chapter of its own](../20_order_h/20_order_h.cpp).
+// For CR on any mesh with good angles $h^{1/2}$ is proved there. Order $h$ does not hold on
+// all of them: on rows of triangles, which are not among the meshes below, the order at ε =
+// 0 is at most 3/4 (same chapter).
 //
-// The computation takes quarter decades of ε from 1 to 1e-10, and 0. A supremum over a list is not a supremum, so the
-// list must be dense enough: every second value gives the same to 2 %, which the run checks. Below 1e-10 $u^ε$ and
-// $u_h^ε$ are at their limits, up to what [chapter 10](../10_limits/10_limits.cpp) says of $u^ε$, and
+// The computation takes quarter decades of ε from 1 to 1e-10, and 0. A supremum over a list
+// is not a supremum, so the list must be dense enough: every second value gives the same to
+// 2 %, which the run checks. Below 1e-10 $u^ε$ and $u_h^ε$ are at their limits, up to what
+// [chapter 10](../10_limits/10_limits.cpp) says of $u^ε$, and
 // [chapter 11](../11_propositions/11_propositions.cpp) of $u_h^ε$.
 
 #include "antilock/analysis/best_approximation.hpp"
@@ -91,8 +100,10 @@ using tutorial::Exact;
 const std::vector<std::string> columns{"element", "mesh",     "epsilon", "cells",       "h",
                                        "h1",      "unknowns", "energy",  "lost_to_kept"};
 
-// The map: one method on one mesh at every ε. Forms and contact sets are handed on from ε to ε.
-Table solve_all(const Method& method, int cells, const std::vector<Exact>& exact_solution, const Field& load) {
+// The map: one method on one mesh at every ε. Forms and contact sets are handed on from ε
+// to ε.
+Table solve_all(const Method& method, int cells, const std::vector<Exact>& exact_solution,
+                const Field& load) {
   // ### Mesh
   const Space space = method.space(cells);
   // ### Forms
@@ -103,9 +114,10 @@ Table solve_all(const Method& method, int cells, const std::vector<Exact>& exact
     sweep.set_epsilon(exact.epsilon);
     const Solution solution = sweep.solve();
     const Errors errors = exact.errors(space, solution);
-    const double kept = solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact();
-    rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, errors.h1,
-              space.free_count(), errors.energy, 1 / kept - 1});
+    const double kept =
+        solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact();
+    rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells,
+              errors.h1, space.free_count(), errors.energy, 1 / kept - 1});
   }
   return rows;
 }
@@ -114,10 +126,11 @@ Table solve_all(const Method& method, int cells, const std::vector<Exact>& exact
 Table worst_from(double epsilon_0, const Table& map) {
   Table rows({"cells", "h", "unknowns", "h1", "energy", "ratio"});
   for (const TableEntry& cells : map.unique("cells")) {
-    const Table own =
-        map.filter("cells", cells).filter_number("epsilon", [=](double e) { return e >= 0.99 * epsilon_0; });
-    rows.add({cells, own.first("h"), own.first("unknowns"), own.max("h1"), own.max("energy"),
-              own.max("h1") / own.filter("epsilon", 1).number("h1")});
+    const Table own = map.filter("cells", cells).filter_number("epsilon", [=](double e) {
+      return e >= 0.99 * epsilon_0;
+    });
+    rows.add({cells, own.first("h"), own.first("unknowns"), own.max("h1"),
+              own.max("energy"), own.max("h1") / own.filter("epsilon", 1).number("h1")});
   }
   return rows;
 }
@@ -128,35 +141,44 @@ Table distances(const Method& method, const Table& worst, const Exact& u0) {
   for (const TableEntry& cells : worst.unique("cells")) {
     const Space space = method.space(static_cast<int>(cells.number()));
     const VariationalInequality problem = assemble(tutorial::paper_scene(0), space);
-    rows.add({1 / cells.number(), best_approximation(space, problem, u0.reference(), AdmissibleSet::k_0h).distance});
+    rows.add(
+        {1 / cells.number(),
+         best_approximation(space, problem, u0.reference(), AdmissibleSet::k_0h).distance});
   }
   return rows;
 }
 
-void judge(const Method& method, const Table& own, const Table& worst, double lost, tutorial::Report& report);
+void judge(const Method& method, const Table& own, const Table& worst, double lost,
+           tutorial::Report& report);
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("truth");
-  const std::vector<Exact> exact_solution =
-      tutorial::exact_solutions(tutorial::quarter_decades(), 14);  // gradients to 1e-6, errors are 1e-2
+  const std::vector<Exact> exact_solution = tutorial::exact_solutions(
+      tutorial::quarter_decades(), 14);  // gradients to 1e-6, errors are 1e-2
   Table map(columns), restricted({"from", "h", "worst"});
-  Table side_by_side({"method", "dist(u^0, K_0h)", "order", "sup error", "order in h", "in N", "locking ratio"});
+  Table side_by_side({"method", "dist(u^0, K_0h)", "order", "sup error", "order in h",
+                      "in N", "locking ratio"});
   const double lost = layer_norm(exact_solution.back().solution);
   std::vector<Method> all = methods({&crouzeix_raviart(), &p1()});
-  for (const char* family : {"delaunay", "staggered"}) all.push_back({&p1(), mesh_family(family)});
+  for (const char* family : {"delaunay", "staggered"})
+    all.push_back({&p1(), mesh_family(family)});
   std::vector<std::pair<Method, Table>> found;
   for (const Method& method : all) {
     report.stage(method.name());
     Table own(columns);
-    for (int n = 8; n <= options.cells; n += n % 3 == 0 ? n / 3 : n / 2)  // 8, 12, 16, 24, 32, ...
+    for (int n = 8; n <= options.cells;
+         n += n % 3 == 0 ? n / 3 : n / 2)  // 8, 12, 16, 24, 32, ...
       own.add(solve_all(method, n, exact_solution, paper_load));
-    const Table worst = worst_from(0, own), near = distances(method, worst, exact_solution.back());
-    side_by_side.add({method.name(), near.last("distance"), near.order("distance", "h"), worst.last("h1"),
-                      worst.order("h1", "h"), worst.order("h1", "unknowns"), worst.last("ratio")});
+    const Table worst = worst_from(0, own),
+                near = distances(method, worst, exact_solution.back());
+    side_by_side.add({method.name(), near.last("distance"), near.order("distance", "h"),
+                      worst.last("h1"), worst.order("h1", "h"),
+                      worst.order("h1", "unknowns"), worst.last("ratio")});
     if (method.name() == "P1 unstructured")
       for (const double from : {1.0, 0.1, 0.01, 1e-3, 0.0})
         for (const Table& row : worst_from(from, own).rows())
-          restricted.add({fmt::format("from {:g}", from), row.number("h"), row.number("h1")});
+          restricted.add(
+              {fmt::format("from {:g}", from), row.number("h"), row.number("h1")});
     map.add(own);
     found.emplace_back(method, worst);
   }
@@ -167,35 +189,46 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   tutorial::write_uniform(options.out, found);
   restricted.write(options.out / "restricted.csv");
   for (const auto& [method, worst] : found)
-    judge(method, map.filter("element", method.element->name()).filter("mesh", method.family.name), worst, lost,
-          report);
+    judge(method,
+          map.filter("element", method.element->name()).filter("mesh", method.family.name),
+          worst, lost, report);
 }
 
-void judge(const Method& method, const Table& own, const Table& worst, double lost, tutorial::Report& report) {
+void judge(const Method& method, const Table& own, const Table& worst, double lost,
+           tutorial::Report& report) {
   const std::string name = method.name();
   const double denser = tutorial::supremum(own, "h1", "epsilon").denser;
-  report.claim(denser < 1.02, "{}: a list of ε twice as dense makes the worst error {:.4f} times as large (below 1.02)",
+  report.claim(denser < 1.02,
+               "{}: a list of ε twice as dense makes the worst error {:.4f} times as large "
+               "(below 1.02)",
                name, denser);
   if (!method.element->conforming() || method.family.name == "structured") {
-    const std::string theorem = method.element->conforming() ? ", Theorem 5" : ", Theorem 7";
-    report.claim_order(worst, "h1", "h", 0.95, 1.05,
-                       name + theorem + ": worst H1 error (it falls: proved; order observed)");
-    report.claim_order(worst, "energy", "h", 0.95, 1.05, name + ", Remark 4: worst energy error");
-    report.claim(worst.max("ratio") < 1.05, "{} is free of locking: locking ratio {:.3f} on all meshes (observed)",
+    const std::string theorem =
+        method.element->conforming() ? ", Theorem 5" : ", Theorem 7";
+    report.claim_order(
+        worst, "h1", "h", 0.95, 1.05,
+        name + theorem + ": worst H1 error (it falls: proved; order observed)");
+    report.claim_order(worst, "energy", "h", 0.95, 1.05,
+                       name + ", Remark 4: worst energy error");
+    report.claim(worst.max("ratio") < 1.05,
+                 "{} is free of locking: locking ratio {:.3f} on all meshes (observed)",
                  name, worst.max("ratio"));
     return;
   }
   report.claim(worst.min("h1") > lost,
-               "{} locks: worst error {:.3f}, never below |u^0| on the layer, {:.3f} (proved: its kernel there is 0)",
+               "{} locks: worst error {:.3f}, never below |u^0| on the layer, {:.3f} "
+               "(proved: its kernel there is 0)",
                name, worst.last("h1"), lost);
   // The worst error stays and the error at ε = 1 has order 1: so has 1/L in the end.
   report.claim_order(worst, "ratio", "h", -1.05, -0.4, name + ": locking ratio");
   if (name != "P1 unstructured") return;
-  report.claim_order(worst_from(0.1, own), "h1", "h", 0.9, 1.1, name + ", Proposition 4 on [0.1, 1] (observed)");
+  report.claim_order(worst_from(0.1, own), "h1", "h", 0.9, 1.1,
+                     name + ", Proposition 4 on [0.1, 1] (observed)");
   const std::vector<double> steps = worst_from(0.01, own).pairwise_orders("h1", "h");
   if (steps.size() >= 4)
     report.claim(steps.back() > 0.95 && steps.front() < 0.8,
-                 "{}, Proposition 4 on [0.01, 1]: order {:.2f} in the first step, {:.2f} in the last, below the wall "
+                 "{}, Proposition 4 on [0.01, 1]: order {:.2f} in the first step, {:.2f} "
+                 "in the last, below the wall "
                  "(observed)",
                  name, steps.front(), steps.back());
 }
@@ -222,15 +255,20 @@ void judge(const Method& method, const Table& own, const Table& worst, double lo
 //
 // ## Exercises
 //
-// 1. The load $-10 \sin πx$ presses everywhere. Is P1 on the unstructured mesh uniform now? Is the hypothesis of
-//    Theorem 4 necessary?
-// 2. On paper: on the unstructured mesh, does the worst error of P1 over $[h, 1]$ tend to 0, and that over $[h^2, 1]$? And
-//    on the Delaunay mesh?
+// 1. The load $-10 \sin πx$ presses everywhere. Is P1 on the unstructured mesh uniform now?
+//    Is the hypothesis of Theorem 4 necessary?
+// 2. On paper: on the unstructured mesh, does the worst error of P1 over $[h, 1]$ tend to
+//    0, and that over $[h^2, 1]$? And on the Delaunay mesh?
 
 #include "answers.hpp"
 
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "13_uniform",
-                       "Theorems 4, 5, 7: convergence uniform in epsilon, and the locking map",
-                       {.takes_epsilon = false, .least_cells = 16, .most_cells = 128, .exercises = exercises}, study);
+  return tutorial::run(
+      argc, argv, "13_uniform",
+      "Theorems 4, 5, 7: convergence uniform in epsilon, and the locking map",
+      {.takes_epsilon = false,
+       .least_cells = 16,
+       .most_cells = 128,
+       .exercises = exercises},
+      study);
 }

@@ -12,8 +12,15 @@ void degrees(const tutorial::Options& options, tutorial::Report&) {
 }
 
 int figure(int argc, char** argv) {
-  const auto add = [](CLI::App& line) { line.add_option("--mesh", family, "a family of meshes"); };
-  return tutorial::run(
-      argc, argv, "figure_16_degree", "the ridge that degrees 1 to 4 keep",
-      {.epsilon = 1e-2, .least_epsilon = 1e-4, .cells = 8, .least_cells = 8, .most_cells = 16, .add = add}, degrees);
+  const auto add = [](CLI::App& line) {
+    line.add_option("--mesh", family, "a family of meshes");
+  };
+  return tutorial::run(argc, argv, "figure_16_degree", "the ridge that degrees 1 to 4 keep",
+                       {.epsilon = 1e-2,
+                        .least_epsilon = 1e-4,
+                        .cells = 8,
+                        .least_cells = 8,
+                        .most_cells = 16,
+                        .add = add},
+                       degrees);
 }

@@ -5,28 +5,36 @@
 // Run: 23_effects --exercise 1
 // Run: 23_effects --exercise 2
 //
-// Needs: [01](../01_domain/01_domain.cpp) for (22), (23), [03](../03_by_hand/03_by_hand.cpp) for corrections, [10](../10_limits/10_limits.cpp) for (25).
+// Needs: [01](../01_domain/01_domain.cpp) for (22), (23),
+// [03](../03_by_hand/03_by_hand.cpp) for corrections, [10](../10_limits/10_limits.cpp) for
+// (25).
 //
-// **The picture.** One body under one load, five times: alone; on an obstacle; held by a stiff layer that is not meshed;
-// with the layer meshed below it; with layer and obstacle. *The free lower side of the body moves by 0.25. Glue a layer
-// under it that is rigid across its thickness, and it moves by 0.035: it is held as by a stretched string.*
+// **The picture.** One body under one load, five times: alone; on an obstacle; held by a
+// stiff layer that is not meshed; with the layer meshed below it; with layer and
+// obstacle. *The free lower side of the body moves by 0.25. Glue a layer under it that is
+// rigid across its thickness, and it moves by 0.035: it is held as by a stretched string.*
 //
-// **Predict.** (a) The layer of (25) is one term on $Σ$. How many triangles, unknowns and linear solves does it cost more
-// than the body alone? (b) Seven values of ε on one mesh: how many factorisations, if all those whose square is below the
-// penalty δ of chapter 18 share one?
+// **Predict.** (a) The layer of (25) is one term on $Σ$. How many triangles, unknowns and
+// linear solves does it cost more than the body alone? (b) Seven values of ε on one mesh:
+// how many factorisations, if all those whose square is below the penalty δ of chapter 18
+// share one?
 //
 // ## The parts of the inequality (23)
 //
 // $$ \underbrace{a^+(u, v-u)}_{\text{body}} + \underbrace{(a_x^- + ε^{-2} a_y^-)(u, v-u)}_{\text{layer}} ≥ (f, v-u). $$
 //
-// - no contact: $K$ is a space. Put $v = u + w$ and $v = u - w$ into the inequality: $≥$ becomes $=$, one linear solve;
+// - no contact: $K$ is a space. Put $v = u + w$ and $v = u - w$ into the inequality: $≥$
+//   becomes $=$, one linear solve;
 // - no layer: $a^+$ alone, on the body's mesh alone;
 // - ε = 0: (24), the layer can only follow $Σ$: $u(x, y) = u(x, 0)$ there;
-// - and then it need not be meshed: $a_x^-$ on functions of $x$ is $∫_Σ ∂_x u ∂_x v$, the condition of Ventcel, (25);
-// - before the change of variable $y → y/ε$ the layer is $(0,1) × (-ε,0)$ and $1/ε$ times as stiff: (22).
+// - and then it need not be meshed: $a_x^-$ on functions of $x$ is $∫_Σ ∂_x u ∂_x v$, the
+//   condition of Ventcel, (25);
+// - before the change of variable $y → y/ε$ the layer is $(0,1) × (-ε,0)$ and $1/ε$ times
+//   as stiff: (22).
 //
-// Each of these is a type (`scene/scene.hpp`), so that what a scene lacks cannot cost anything: there is no code to
-// skip. Contact has a *gap*, the distance between undeformed body and obstacle at $x$: $u ≥ -$gap.
+// Each of these is a type (`scene/scene.hpp`), so that what a scene lacks cannot cost
+// anything: there is no code to skip. Contact has a *gap*, the distance between undeformed
+// body and obstacle at $x$: $u ≥ -$gap.
 
 #include "antilock/study/scene_sweep.hpp"
 #include "support.hpp"
@@ -38,7 +46,8 @@ const Body body{paper_load};
 const UnilateralContact obstacle{};
 
 // **Five scenes**, from plain Laplace to a stiff layer with contact.
-void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::Report& report) {
+void each_scene_costs_what_it_holds(const tutorial::Options& options,
+                                    tutorial::Report& report) {
   const std::vector<std::pair<std::string, Scene>> scenes{
       {"1_body", Scene(body)},
       {"2_body_contact", Scene(body, NoLayer{}, obstacle)},
@@ -52,7 +61,8 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
     TriangleMesh mesh = unstructured_mesh(options.cells, {scene.layer_depth()});
     // ### Forms
     // ### Solve
-    // A `Run` assembles what the scene holds and solves it, by Crouzeix-Raviart and the active set.
+    // A `Run` assembles what the scene holds and solves it, by Crouzeix-Raviart and the
+    // active set.
     const Run run(scene, std::move(mesh));
     table.add(tutorial::costs(name, run));
     tutorial::write_results(options.out / name, {run.space, run.problem, run.solution});
@@ -60,63 +70,82 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
   // ### Output
   table.print("what each scene costs", 3);
   table.write(options.out / "results.csv");
-  const Table alone = table.filter("scene", "1_body"), ventcel = table.filter("scene", "3_ventcel");
-  report.claim(alone.number("solves") == 1 && alone.number("contact") == 0 && alone.number("corrections") == 0,
+  const Table alone = table.filter("scene", "1_body"),
+              ventcel = table.filter("scene", "3_ventcel");
+  report.claim(alone.number("solves") == 1 && alone.number("contact") == 0 &&
+                   alone.number("corrections") == 0,
                "the body alone is one linear solve (observed)");
   bool same = true;
   for (const std::string cost : {"triangles", "unknowns", "factorisations", "solves"})
     same = same && ventcel.number(cost) == alone.number(cost);
   report.claim(same,
-               "a Ventcel layer costs what the body alone costs: no triangle, no unknown, no solve more (observed)");
+               "a Ventcel layer costs what the body alone costs: no triangle, no unknown, "
+               "no solve more (observed)");
 }
 
-// **One question, three models of the layer**: (23) at a small ε, (24) on the layer's mesh, (25) without one. All are
-// held against the truth at that ε, so the last two show the error of their model as well.
+// **One question, three models of the layer**: (23) at a small ε, (24) on the layer's mesh,
+// (25) without one. All are held against the truth at that ε, so the last two show the
+// error of their model as well.
 void three_models(const tutorial::Options& options, tutorial::Report& report) {
-  const Exact exact(tutorial::paper_scene(options.epsilon), 14), limit(tutorial::paper_scene(0), 14);
+  const Exact exact(tutorial::paper_scene(options.epsilon), 14),
+      limit(tutorial::paper_scene(0), 14);
   double model_error = 0;  // how far the limit is from the truth on Gamma_C
   for (int i = 1; i < 64; ++i)
-    model_error =
-        std::max(model_error, std::abs(exact.solution.value(i / 64.0, -1) - limit.solution.value(i / 64.0, -1)));
+    model_error = std::max(model_error, std::abs(exact.solution.value(i / 64.0, -1) -
+                                                 limit.solution.value(i / 64.0, -1)));
   const double energy_error = std::abs(exact.solution.energy() - limit.solution.energy());
-  Table table({"model", "h", "unknowns", "error_on_contact", "off_in_energy", "off_in_contact", "seconds"});
+  Table table({"model", "h", "unknowns", "error_on_contact", "off_in_energy",
+               "off_in_contact", "seconds"});
   for (const int cells : {options.cells, 2 * options.cells})
-    for (const auto& [name, layer] : std::vector<std::pair<std::string, Layer>>{
-             {"scaled", StiffLayer{options.epsilon}}, {"limit", StiffLayer{0}}, {"ventcel", VentcelLayer{}}}) {
+    for (const auto& [name, layer] :
+         std::vector<std::pair<std::string, Layer>>{{"scaled", StiffLayer{options.epsilon}},
+                                                    {"limit", StiffLayer{0}},
+                                                    {"ventcel", VentcelLayer{}}}) {
       const Scene scene(body, layer, obstacle);
       const Run run(scene, unstructured_mesh(cells, {scene.layer_depth()}));
-      table.add({name, 1.0 / cells, run.solution.counters.unknowns, run.error_on_contact(exact.solution),
-                 std::abs(run.energy - exact.solution.energy()), std::abs(run.contact_from - exact.contact_from()),
+      table.add({name, 1.0 / cells, run.solution.counters.unknowns,
+                 run.error_on_contact(exact.solution),
+                 std::abs(run.energy - exact.solution.energy()),
+                 std::abs(run.contact_from - exact.contact_from()),
                  run.assemble_seconds + run.solve_seconds});
     }
-  table.print(fmt::format("truth: contact from x = {:.4f}, J = {:.6f}; the limit differs by {:.1e} in u on Gamma_C",
-                          exact.contact_from(), exact.solution.energy(), model_error));
+  table.print(
+      fmt::format("truth: contact from x = {:.4f}, J = {:.6f}; the limit differs by {:.1e} "
+                  "in u on Gamma_C",
+                  exact.contact_from(), exact.solution.energy(), model_error));
   table.write(options.out / "models.csv");
   for (const TableEntry& h : table.unique("h")) {
     const Table on = table.filter("h", h);
     const double square = h.number() * h.number();
-    // h^2 / 2 in energy and up to 1.6 h^2 in u on Gamma_C were measured; the end of contact falls into a cell or the next
+    // h^2 / 2 in energy and up to 1.6 h^2 in u on Gamma_C were measured; the end of contact
+    // falls into a cell or the next
     report.claim(on.max("error_on_contact") <= 2 * square + model_error &&
                      on.max("off_in_energy") <= square + energy_error &&
                      on.max("off_in_contact") <= 2 * h.number() + model_error,
-                 "h = {:.4f}: three models, one answer, each within 2 h^2 + {:.1e} of the truth on Gamma_C, the second "
+                 "h = {:.4f}: three models, one answer, each within 2 h^2 + {:.1e} of the "
+                 "truth on Gamma_C, the second "
                  "number the model's own error (observed)",
                  h.number(), model_error);
     const double ventcel = on.filter("model", "ventcel").number("error_on_contact"),
                  scaled = on.filter("model", "scaled").number("error_on_contact");
     report.claim(ventcel <= scaled + model_error,
-                 "Ventcel loses nothing without a mesh of the layer: error {:.1e}, with one {:.1e} (observed)", ventcel,
-                 scaled);
+                 "Ventcel loses nothing without a mesh of the layer: error {:.1e}, with "
+                 "one {:.1e} (observed)",
+                 ventcel, scaled);
   }
 }
 
-// **The change of variable** takes (22) to (23). On a mesh whose layer is pressed flat by the same map it does so
-// term by term: the same matrices, the same answer. On a mesh made for the thin layer, up to discretisation.
+// **The change of variable** takes (22) to (23). On a mesh whose layer is pressed flat by
+// the same map it does so term by term: the same matrices, the same answer. On a mesh made
+// for the thin layer, up to discretisation.
 void change_of_variable(const tutorial::Options& options, tutorial::Report& report) {
-  Table table({"epsilon", "energy_thin", "energy_scaled", "from_thin", "from_scaled", "difference_on_pressed_mesh"});
+  Table table({"epsilon", "energy_thin", "energy_scaled", "from_thin", "from_scaled",
+               "difference_on_pressed_mesh"});
   for (const double epsilon : {1e-1, 1e-2, 1e-3}) {
-    const Scene thin(body, ThinLayer{epsilon}, obstacle), scaled(body, StiffLayer{epsilon}, obstacle);
-    const Run a(thin, structured_mesh(options.cells, {epsilon})), b(scaled, structured_mesh(options.cells)),
+    const Scene thin(body, ThinLayer{epsilon}, obstacle),
+        scaled(body, StiffLayer{epsilon}, obstacle);
+    const Run a(thin, structured_mesh(options.cells, {epsilon})),
+        b(scaled, structured_mesh(options.cells)),
         c(thin, tutorial::pressed_mesh(options.cells, epsilon));
     table.add({epsilon, a.energy, b.energy, a.contact_from, b.contact_from,
                (c.solution.u - b.solution.u).cwiseAbs().maxCoeff()});
@@ -125,20 +154,26 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
   table.write(options.out / "change_of_variable.csv");
   const auto apart = [&](const std::string& one, const std::string& other) {
     double most = 0;
-    for (const Table& row : table.rows()) most = std::max(most, std::abs(row.number(one) - row.number(other)));
+    for (const Table& row : table.rows())
+      most = std::max(most, std::abs(row.number(one) - row.number(other)));
     return most;
   };
   const double h = 1.0 / options.cells, pressed = table.max("difference_on_pressed_mesh"),
-               energy = apart("energy_thin", "energy_scaled"), from = apart("from_thin", "from_scaled");
-  report.claim(pressed <= 1e-16 / (1e-6 * h * h),  // round-off times the condition of (22), epsilon^-2 h^-2
-               "(22) is (23), term by term: u differs by {:.1e} on corresponding meshes (proved)", pressed);
+               energy = apart("energy_thin", "energy_scaled"),
+               from = apart("from_thin", "from_scaled");
+  report.claim(
+      pressed <=
+          1e-16 / (1e-6 * h * h),  // round-off times the condition of (22), epsilon^-2 h^-2
+      "(22) is (23), term by term: u differs by {:.1e} on corresponding meshes (proved)",
+      pressed);
   report.claim(energy <= h * h && from <= 1.5 * h,
-               "and up to discretisation on others: energy within {:.1e}, contact within {:.3f} (observed)", energy,
-               from);
+               "and up to discretisation on others: energy within {:.1e}, contact within "
+               "{:.3f} (observed)",
+               energy, from);
 }
 
-// **Many questions.** The forms of (23) do not contain ε, and every ε whose square is below δ is solved with one and the
-// same factorisation.
+// **Many questions.** The forms of (23) do not contain ε, and every ε whose square is below
+// δ is solved with one and the same factorisation.
 void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<double> epsilons = {1e-1, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0};
   const Space space = Method{&crouzeix_raviart(), unstructured()}.space(options.cells);
@@ -148,10 +183,11 @@ void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& repo
     sweep.solve();
   }
   const double delta = sweep.factor().delta();
-  const auto above = std::count_if(epsilons.begin(), epsilons.end(), [&](double e) { return e * e > delta; });
+  const auto above = std::count_if(epsilons.begin(), epsilons.end(),
+                                   [&](double e) { return e * e > delta; });
   report.claim(sweep.total().factorisations == above + 1,
-               "{} epsilons cost one assembly and {} factorisations (observed)", epsilons.size(),
-               sweep.total().factorisations);
+               "{} epsilons cost one assembly and {} factorisations (observed)",
+               epsilons.size(), sweep.total().factorisations);
 }
 
 void effects(const tutorial::Options& options, tutorial::Report& report) {
@@ -163,15 +199,18 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) No triangle, no unknown and no solve more. Up to the error of the model its answer is as near to the truth as that
-// of the meshed layer. (b) One for each ε whose square is above the penalty δ, and one for all others. δ is about
-// 6e-8, so the border is about ε = 2e-4: 0.1 and 0.001 lie above, and three are enough. On corresponding meshes (22)
-// and (23) differ by round-off.
+// (a) No triangle, no unknown and no solve more. Up to the error of the model its answer is
+// as near to the truth as that of the meshed layer. (b) One for each ε whose square is
+// above the penalty δ, and one for all others. δ is about 6e-8, so the border is about ε =
+// 2e-4: 0.1 and 0.001 lie above, and three are enough. On corresponding meshes (22) and
+// (23) differ by round-off.
 //
 // ## Exercises
 //
-// 1. Move the obstacle out of reach, gap = 1. What does the scene with layer and contact cost, what does it answer?
-// 2. Take P1 for Crouzeix–Raviart on this unstructured mesh. Which models of the layer lock: (23), (24), (25)?
+// 1. Move the obstacle out of reach, gap = 1. What does the scene with layer and contact
+//    cost, what does it answer?
+// 2. Take P1 for Crouzeix–Raviart on this unstructured mesh. Which models of the layer
+//    lock: (23), (24), (25)?
 
 #include "answers.hpp"
 

@@ -5,7 +5,8 @@
 
 namespace antilock::tutorial {
 
-/// A scene from question to answer by Crouzeix-Raviart and the active set, and what each step took (seconds).
+/// A scene from question to answer by Crouzeix-Raviart and the active set, and what each
+/// step took (seconds).
 struct Run {
   Run(const Scene& scene, TriangleMesh mesh) : space(std::move(mesh), crouzeix_raviart()) {
     Stopwatch watch;
@@ -25,16 +26,17 @@ struct Run {
   double error_on_contact(const ExactSolution& exact) const {
     double error = 0;  // gap = u where the obstacle is flat
     const Eigen::MatrixX3d points = contact_table({space, problem, solution});
-    for (const auto& point : points.rowwise()) error = std::max(error, std::abs(point(1) - exact.value(point(0), -1)));
+    for (const auto& point : points.rowwise())
+      error = std::max(error, std::abs(point(1) - exact.value(point(0), -1)));
     return error;
   }
 };
 
-/// What a scene costs: its name, triangles, unknowns, factorisations, solves, contact, corrections, assemble_s,
-/// solve_s, and the smallest and the largest u.
-inline const std::vector<std::string> cost_columns{"scene",   "triangles", "unknowns",    "factorisations",
-                                                   "solves",  "contact",   "corrections", "assemble_s",
-                                                   "solve_s", "u_min",     "u_max"};
+/// What a scene costs: its name, triangles, unknowns, factorisations, solves, contact,
+/// corrections, assemble_s, solve_s, and the smallest and the largest u.
+inline const std::vector<std::string> cost_columns{
+    "scene",       "triangles",  "unknowns", "factorisations", "solves", "contact",
+    "corrections", "assemble_s", "solve_s",  "u_min",          "u_max"};
 inline std::vector<TableEntry> costs(const std::string& name, const Run& run) {
   const Counters& c = run.solution.counters;
   return {name,

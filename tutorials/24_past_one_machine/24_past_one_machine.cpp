@@ -5,13 +5,15 @@
 // Run: 24_past_one_machine --exercise 1
 // Run: 24_past_one_machine --exercise 2
 //
-// Needs: [02](../02_meshes/02_meshes.cpp) for the layered mesh, [07](../07_kernel/07_kernel.cpp) for the kernel on the layer,
-// [18](../18_roundoff/18_roundoff.cpp) for the split form and the iterated penalty. There is no FreeFEM script, because Debian's package
-// has no interface to PETSc.
+// Needs: [02](../02_meshes/02_meshes.cpp) for the layered mesh,
+// [07](../07_kernel/07_kernel.cpp) for the kernel on the layer,
+// [18](../18_roundoff/18_roundoff.cpp) for the split form and the iterated penalty. There
+// is no FreeFEM script, because Debian's package has no interface to PETSc.
 //
-// **The picture.** One mesh on more *ranks*, the processes that share a problem (strong scaling), and as many
-// unknowns on each rank (weak scaling). *Where each rank owns whole columns of the layer, the iterations hardly grow
-// with the ranks.* It stands at the end of this page, because its third curve answers (a).
+// **The picture.** One mesh on more *ranks*, the processes that share a problem (strong
+// scaling), and as many unknowns on each rank (weak scaling). *Where each rank owns whole
+// columns of the layer, the iterations hardly grow with the ranks.* It stands at the end of
+// this page, because its third curve answers (a).
 //
 // **Predict.** (a) The triangles are dealt out in squares, as on a chessboard, so that
 // columns are cut. By what factor do the iterations grow on four ranks, and why? (b) PETSc
@@ -21,34 +23,40 @@
 //
 // ## Why the factor stops, and what replaces it
 //
-// Every chapter before factors $A_δ = A_1 + δ^{-1} B^T M B$, in $N^{3/2}$ operations for $N$ unknowns in the plane. A
-// second machine helps little: the order of elimination is found on one processor, and the last and largest blocks of
-// the factor wait for all others.
+// Every chapter before factors $A_δ = A_1 + δ^{-1} B^T M B$, in $N^{3/2}$ operations for
+// $N$ unknowns in the plane. A second machine helps little: the order of elimination is
+// found on one processor, and the last and largest blocks of the factor wait for all
+// others.
 //
-// The iterated penalty needs $A_δ^{-1}$ on residuals alone. Each correction repairs what the last one left over, and that
-// includes what a careless solve with $A_δ$ left over. So four digits per correction are enough. Conjugate gradients give
-// them in 2 to 5 iterations with *algebraic multigrid* (BoomerAMG): it reads from $A_δ$ which unknowns hang together,
-// merges them into a coarser problem, and so on until one is left that is solved at once. Contact set and penalty are
-// corrected in one loop. What is left over is formed from $A_1$, $B$, $M$ and $p$, not from $A_δ$, since $A_δ$ has lost
-// digits (chapter 18):
+// The iterated penalty needs $A_δ^{-1}$ on residuals alone. Each correction repairs what
+// the last one left over, and that includes what a careless solve with $A_δ$ left over. So
+// four digits per correction are enough. Conjugate gradients give them in 2 to 5 iterations
+// with *algebraic multigrid* (BoomerAMG): it reads from $A_δ$ which unknowns hang together,
+// merges them into a coarser problem, and so on until one is left that is solved at once.
+// Contact set and penalty are corrected in one loop. What is left over is formed from
+// $A_1$, $B$, $M$ and $p$, not from $A_δ$, since $A_δ$ has lost digits (chapter 18):
 //
 // $$ r_1 = L - A_1 u - B^T M p,   r_2 = ε^2 p - B u. $$
 //
-// In balance $r_1$ is $-λ$: on a touching point it is what the obstacle adds, with the other sign. So a point stays in
-// contact where $-r_1 > 0$ presses, and comes into contact where $u < -\text{gap}$. Off this set one correction solves
+// In balance $r_1$ is $-λ$: on a touching point it is what the obstacle adds, with the
+// other sign. So a point stays in contact where $-r_1 > 0$ presses, and comes into contact
+// where $u < -\text{gap}$. Off this set one correction solves
 //
 // $$ A_δ\,du = r_1 + δ^{-1} B^T M r_2,   u ← u + du,   p ← p + δ^{-1} (B\,du - r_2), $$
 //
-// as `cure` does in chapter 18, and on it $du = -\text{gap} - u$. The penalty $δ$ is about $10^{-9}$ on every mesh. Each level of
-// refinement begins with the contact set of the level before.
+// as `cure` does in chapter 18, and on it $du = -\text{gap} - u$. The penalty $δ$ is about
+// $10^{-9}$ on every mesh. Each level of refinement begins with the contact set of the
+// level before.
 //
 // ## Why columns: the kernel again
 //
-// Multigrid must keep on its coarse problems what $A_δ$ hardly charges: the kernel of $B$ on the layer. For P1 in columns
-// that is one function per vertical line of vertices, and the unknowns that hang together through $δ^{-1}$ are those of
-// one such line. Merged, they are still in the kernel. Without columns Crouzeix-Raviart has one such function per two
-// triangles (chapter 07), each spread over several triangles. None of the algebraic multigrids that we tried merges
-// unknowns so that they stay in this kernel: each needed 500 iterations and more (observed).
+// Multigrid must keep on its coarse problems what $A_δ$ hardly charges: the kernel of $B$
+// on the layer. For P1 in columns that is one function per vertical line of vertices, and
+// the unknowns that hang together through $δ^{-1}$ are those of one such line. Merged, they
+// are still in the kernel. Without columns Crouzeix-Raviart has one such function per two
+// triangles (chapter 07), each spread over several triangles. None of the algebraic
+// multigrids that we tried merges unknowns so that they stay in this kernel: each needed
+// 500 iterations and more (observed).
 //
 // This says nothing against multigrid that *knows* the kernel. For elasticity that is
 // nearly incompressible, the same difficulty, Schöberl (1999) corrects on small patches of
@@ -60,15 +68,17 @@
 // function of $x$ alone is in it (its edge means are, chapter 08), and it reaches from $Σ$
 // to $Γ_C$. A patch that holds such a function has the full height of the layer.
 //
-// Our cure is the layered mesh. Another is MUMPS, a direct solver whose ranks share the factor (exercise 2); they send
-// each other its numbers by MPI. A *strip* is here the part of the mesh between two vertical lines that one rank
-// owns, not the strip of chapter 19. BDDC, a method that factors each strip by itself, took 5 to 9
-// iterations up to 1/h = 256 and broke down at 1.8 million unknowns; it is not offered.
+// Our cure is the layered mesh. Another is MUMPS, a direct solver whose ranks share the
+// factor (exercise 2); they send each other its numbers by MPI. A *strip* is here the part
+// of the mesh between two vertical lines that one rank owns, not the strip of chapter 19.
+// BDDC, a method that factors each strip by itself, took 5 to 9 iterations up to 1/h = 256
+// and broke down at 1.8 million unknowns; it is not offered.
 //
-// **SNESVI**, PETSc's own solver, is an active set ([00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp)) whose line search compares
-// residuals. The rows of the summed matrix are of size $ε^{-2}$, and so is the round-off in its residual: below ε =
-// 1e-4 there is nothing left to compare. In the split form it solves for $du$ alone, with full steps, and ends with
-// our $u$.
+// **SNESVI**, PETSc's own solver, is an active set
+// ([00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp)) whose line search
+// compares residuals. The rows of the summed matrix are of size $ε^{-2}$, and so is the
+// round-off in its residual: below ε = 1e-4 there is nothing left to compare. In the split
+// form it solves for $du$ alone, with full steps, and ends with our $u$.
 
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
@@ -80,15 +90,17 @@ using namespace antilock;
 namespace dist = antilock::distributed;
 using tutorial::Asked, tutorial::Ended, tutorial::on_ranks, tutorial::serial;
 
-// Every rank runs the next function: it knows the same coarse mesh, keeps its own strip and refines that. No rank ever
-// holds the fine mesh. $A_1$, $B$ and $M$ stay on their rank; $A_δ$ alone is a matrix of all ranks.
+// Every rank runs the next function: it knows the same coarse mesh, keeps its own strip and
+// refines that. No rank ever holds the fine mesh. $A_1$, $B$ and $M$ stay on their rank;
+// $A_δ$ alone is a matrix of all ranks.
 Ended on_each_rank(const Asked& ask) {
   const Scene scene = tutorial::paper_scene(ask.epsilon);
   const bool columns = ask.what != "multigrid" && ask.what != "MUMPS";
   // ### Mesh
   dist::NestedOptions options;
   int coarse = ask.cells;
-  while (columns && coarse % 2 == 0 && coarse / 2 >= std::max(16, 4 * ask.ranks)) coarse /= 2, ++options.refinements;
+  while (columns && coarse % 2 == 0 && coarse / 2 >= std::max(16, 4 * ask.ranks))
+    coarse /= 2, ++options.refinements;
   const TriangleMesh mesh = columns ? structured_mesh(coarse) : unstructured_mesh(coarse);
   if (ask.what == "chessboard") options.partition = tutorial::chessboard;
   if (!columns) options.partition = tutorial::all_on_the_first;
@@ -96,7 +108,8 @@ Ended on_each_rank(const Asked& ask) {
   options.loop.direct = ask.what == "MUMPS";
   dist::NestedReport report;
   const Stopwatch watch;
-  const auto level = dist::solve_nested(scene, mesh, columns ? p1() : crouzeix_raviart(), options, report);
+  const auto level =
+      dist::solve_nested(scene, mesh, columns ? p1() : crouzeix_raviart(), options, report);
   return {report.unknowns.back(),
           report.last.corrections,
           report.last.linear_iterations,
@@ -108,7 +121,8 @@ Ended on_each_rank(const Asked& ask) {
 }
 
 // ### Output
-// Measured by `figures/benchmarks/distributed` (medians, mesh and assembly and all levels included; cores: 2):
+// Measured by `figures/benchmarks/distributed` (medians, mesh and assembly and all levels
+// included; cores: 2):
 //
 // | unknowns | serial: seconds, GB | PETSc: seconds, GB | on two ranks: seconds, GB per rank | iterations at most |
 // |---|---|---|---|---|
@@ -117,24 +131,30 @@ Ended on_each_rank(const Asked& ask) {
 // | 2,095,104 | 11, 3.3 | 7.2, 1.9 | 5.1, 1.0 | 5 |
 // | 8,384,512 | | | 49, 4.3 (an earlier state) | 5 |
 //
-// On paper $10^9$ unknowns need 1 TB and some 10,000 processor seconds. What breaks first: Debian's PETSc counts with
-// 32 bits (refused beyond 134 million unknowns); then the strips, at most as many as coarse columns, with seams from
-// top to bottom; then the coarse mesh, which every rank holds.
+// On paper $10^9$ unknowns need 1 TB and some 10,000 processor seconds. What breaks first:
+// Debian's PETSc counts with 32 bits (refused beyond 134 million unknowns); then the
+// strips, at most as many as coarse columns, with seams from top to bottom; then the coarse
+// mesh, which every rank holds.
 void past_one_machine(const tutorial::Options& options, tutorial::Report& report) {
   const double epsilon = options.epsilon;
   const auto same = [&](int) { return options.cells; };
-  const auto growing = [&](int ranks) { return 8 * std::lround(options.cells / 16.0 * std::sqrt(ranks)); };
+  const auto growing = [&](int ranks) {
+    return 8 * std::lround(options.cells / 16.0 * std::sqrt(ranks));
+  };
   report.stage("strong scaling, weak scaling, the chessboard");
   const Table strong = on_ranks("strips", {1, 2, 4}, same, epsilon),
               weak = on_ranks("strips", {1, 2, 4}, growing, epsilon),
               cut = on_ranks("chessboard", {1, 2, 4}, same, epsilon);
   report.stage("a layer without columns; SNESVI; the serial library");
-  const Table without = on_ranks({"multigrid", 1, 32, epsilon}), split = on_ranks({"SNESVI, split", 1, 32, 1e-6}),
-              coarse = on_ranks({"SNESVI, summed", 1, 32, 1e-2}), summed = on_ranks({"SNESVI, summed", 1, 32, 1e-6});
+  const Table without = on_ranks({"multigrid", 1, 32, epsilon}),
+              split = on_ranks({"SNESVI, split", 1, 32, 1e-6}),
+              coarse = on_ranks({"SNESVI, summed", 1, 32, 1e-2}),
+              summed = on_ranks({"SNESVI, summed", 1, 32, 1e-6});
   const Solution u = serial(structured_mesh(options.cells), p1(), epsilon);
   tutorial::write_scaling(options.out, strong, weak, cut);
   report.finish();
-  for (const Table& runs : {strong, weak, cut, without, split, coarse, summed}) tutorial::print_runs(runs);
+  for (const Table& runs : {strong, weak, cut, without, split, coarse, summed})
+    tutorial::print_runs(runs);
 
   report.claim_within(std::abs(strong.max("u_max") / u.u.maxCoeff() - 1), 0, 1e-9,
                       "any ranks: away from the serial u by (observed)");
@@ -142,10 +162,14 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
                       "iterations per correction, at most (observed)");
   report.claim_within(cut.last("iterations") / strong.last("iterations"), 1.5, 4,
                       "cut columns: iterations times (observed)");
-  report.claim(without.entry("reason") == "gave_up", "BoomerAMG fails on a layer without columns (observed)");
+  report.claim(without.entry("reason") == "gave_up",
+               "BoomerAMG fails on a layer without columns (observed)");
   const std::string reason = summed.entry("reason").text();
-  report.claim(coarse.number("u_max") > 0 && summed.number("u_max") == 0 && reason.starts_with("DIVERGED"),
-               "SNESVI, summed: solves 1e-2 and reports {} at 1e-6, with u = 0, the start (observed)", reason);
+  report.claim(coarse.number("u_max") > 0 && summed.number("u_max") == 0 &&
+                   reason.starts_with("DIVERGED"),
+               "SNESVI, summed: solves 1e-2 and reports {} at 1e-6, with u = 0, the start "
+               "(observed)",
+               reason);
   report.claim_within(split.number("u_max") / coarse.number("u_max"), 0.95, 1.05,
                       "SNESVI, split at 1e-6 over summed at 1e-2 (observed)");
 }
@@ -162,9 +186,10 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 // ## Exercises
 //
 // 1. Take ε = 0 in place of 1e-6. What becomes of the iterations?
-// 2. Take MUMPS in place of multigrid on the layer without columns. Does the loop settle, and on which $u$?
-// 3. On paper: how many columns must the coarse mesh have for 1,024 ranks, and how often is it refined for $10^9$
-//    unknowns?
+// 2. Take MUMPS in place of multigrid on the layer without columns. Does the loop settle,
+//    and on which $u$?
+// 3. On paper: how many columns must the coarse mesh have for 1,024 ranks, and how often is
+//    it refined for $10^9$ unknowns?
 
 #include "answers.hpp"
 
@@ -173,6 +198,7 @@ int main(int argc, char** argv) {
     return ask.what.starts_with("SNESVI") ? tutorial::by_snesvi(ask) : on_each_rank(ask);
   };
   if (const auto status = tutorial::answer_as_rank(argc, argv, any)) return *status;
-  return tutorial::run(argc, argv, "24_past_one_machine", "the same inequality on PETSc over MPI",
-                       {.cells = 256, .least_cells = 64, .exercises = exercises}, past_one_machine);
+  return tutorial::run(
+      argc, argv, "24_past_one_machine", "the same inequality on PETSc over MPI",
+      {.cells = 256, .least_cells = 64, .exercises = exercises}, past_one_machine);
 }

@@ -22,13 +22,14 @@ namespace antilock::tutorial {
 namespace {
 
 constexpr auto flag = "--on-ranks";
-const std::vector<std::string> columns{"what",        "ranks",      "cells", "epsilon", "unknowns",
-                                       "corrections", "iterations", "most",  "seconds", "megabytes",
-                                       "u_max",       "u_min",      "reason"};
+const std::vector<std::string> columns{
+    "what", "ranks",   "cells",     "epsilon", "unknowns", "corrections", "iterations",
+    "most", "seconds", "megabytes", "u_max",   "u_min",    "reason"};
 
 }  // namespace
 
-std::optional<int> answer_as_rank(int argc, char** argv, const std::function<Ended(const Asked&)>& solve) {
+std::optional<int> answer_as_rank(int argc, char** argv,
+                                  const std::function<Ended(const Asked&)>& solve) {
   if (argc != 5 || std::string(argv[1]) != flag) return std::nullopt;
   const distributed::Session session;
   Ended end;
@@ -41,39 +42,46 @@ std::optional<int> answer_as_rank(int argc, char** argv, const std::function<End
   }
   end.megabytes = distributed::peak_megabytes();
   if (distributed::rank() == 0)
-    fmt::print("{} {} {} {} {} {} {} {} {}\n", end.unknowns, end.corrections, end.iterations, end.most, end.seconds,
-               end.megabytes, end.u_max, end.u_min, end.reason);
+    fmt::print("{} {} {} {} {} {} {} {} {}\n", end.unknowns, end.corrections,
+               end.iterations, end.most, end.seconds, end.megabytes, end.u_max, end.u_min,
+               end.reason);
   return 0;
 }
 
 Table on_ranks(const Asked& asked) {
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   const bool crowded = asked.ranks > static_cast<int>(std::thread::hardware_concurrency());
-  // MPI_ENVIRONMENT: lib/cmake/mpi_environment.cmake. Where there are more ranks than cores, one that waits gives way.
+  // MPI_ENVIRONMENT: lib/cmake/mpi_environment.cmake. Where there are more ranks than
+  // cores, one that waits gives way.
   const std::string command = fmt::format(
-      MPI_ENVIRONMENT " OMPI_MCA_mpi_yield_when_idle={} mpiexec -n {} {} {} {} {} {}", crowded ? 1 : 0, asked.ranks,
-      tutorial::in_shell(self), flag, tutorial::in_shell(asked.what), asked.cells, asked.epsilon);
+      MPI_ENVIRONMENT " OMPI_MCA_mpi_yield_when_idle={} mpiexec -n {} {} {} {} {} {}",
+      crowded ? 1 : 0, asked.ranks, tutorial::in_shell(self), flag,
+      tutorial::in_shell(asked.what), asked.cells, asked.epsilon);
   FILE* pipe = ::popen(command.c_str(), "r");
   std::string answer;
   std::array<char, 512> line{};
-  while (pipe != nullptr && std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr)
+  while (pipe != nullptr &&
+         std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr)
     answer += line.data();
   const int status = pipe != nullptr ? ::pclose(pipe) : -1;
   std::istringstream text(answer);
   Ended end;
-  text >> end.unknowns >> end.corrections >> end.iterations >> end.most >> end.seconds >> end.megabytes >> end.u_max >>
-      end.u_min >> end.reason;
+  text >> end.unknowns >> end.corrections >> end.iterations >> end.most >> end.seconds >>
+      end.megabytes >> end.u_max >> end.u_min >> end.reason;
   if (status != 0 || !text)
-    throw Error(fmt::format("mpiexec -n {} failed (status {}); accepted: a machine where mpiexec starts {} processes",
-                            asked.ranks, status, asked.ranks));
+    throw Error(
+        fmt::format("mpiexec -n {} failed (status {}); accepted: a machine where mpiexec "
+                    "starts {} processes",
+                    asked.ranks, status, asked.ranks));
   Table row(columns);
-  row.add({asked.what, asked.ranks, asked.cells, asked.epsilon, end.unknowns, end.corrections, end.iterations, end.most,
-           end.seconds, end.megabytes, end.u_max, end.u_min, end.reason});
+  row.add({asked.what, asked.ranks, asked.cells, asked.epsilon, end.unknowns,
+           end.corrections, end.iterations, end.most, end.seconds, end.megabytes, end.u_max,
+           end.u_min, end.reason});
   return row;
 }
 
-Table on_ranks(const std::string& what, const std::vector<int>& ranks, const std::function<int(int)>& cells,
-               double epsilon) {
+Table on_ranks(const std::string& what, const std::vector<int>& ranks,
+               const std::function<int(int)>& cells, double epsilon) {
   Table runs(columns);
   for (const int n : ranks) runs.add(on_ranks({what, n, cells(n), epsilon}));
   return runs;
@@ -82,14 +90,25 @@ Table on_ranks(const std::string& what, const std::vector<int>& ranks, const std
 Ended by_snesvi(const Asked& asked) {
   const TriangleMesh mesh = structured_mesh(asked.cells);
   const Space space(
-      distributed::subdomain_of(mesh, distributed::strip_partition(mesh, asked.ranks), distributed::rank()), p1());
+      distributed::subdomain_of(mesh, distributed::strip_partition(mesh, asked.ranks),
+                                distributed::rank()),
+      p1());
   const bool summed = asked.what == "SNESVI, summed";
   const distributed::DistributedProblem problem(
       paper_scene(asked.epsilon), space,
-      summed ? distributed::PenaltyChoice::none : distributed::PenaltyChoice::serial_default);
+      summed ? distributed::PenaltyChoice::none
+             : distributed::PenaltyChoice::serial_default);
   distributed::State state = distributed::zero_state(problem);
   const distributed::SnesviEnd end = distributed::snesvi(problem, state, !summed);
-  return {problem.rows().total(), end.corrections, end.linear, 0, 0, 0, end.largest, 0, end.reason};
+  return {problem.rows().total(),
+          end.corrections,
+          end.linear,
+          0,
+          0,
+          0,
+          end.largest,
+          0,
+          end.reason};
 }
 
 Solution serial(const TriangleMesh& mesh, const Element& element, double epsilon) {
@@ -99,8 +118,8 @@ Solution serial(const TriangleMesh& mesh, const Element& element, double epsilon
 
 void print_runs(const Table& runs) {
   const Table first = runs.rows().front();
-  runs.select({"ranks", "cells", "epsilon", "unknowns", "corrections", "iterations", "most", "seconds", "megabytes",
-               "u_max", "reason"})
+  runs.select({"ranks", "cells", "epsilon", "unknowns", "corrections", "iterations", "most",
+               "seconds", "megabytes", "u_max", "reason"})
       .print(first.entry("what").text(), 5);
 }
 
@@ -108,22 +127,29 @@ std::vector<int> chessboard(const TriangleMesh& mesh, int ranks) {
   std::vector<int> rank_of;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::RowVector3i corners = mesh.triangles.row(t);
-    const double x = mesh.vertices.col(0)(corners).mean(), y = mesh.vertices.col(1)(corners).mean();
+    const double x = mesh.vertices.col(0)(corners).mean(),
+                 y = mesh.vertices.col(1)(corners).mean();
     rank_of.push_back((static_cast<int>(8 * x) + static_cast<int>(8 * (y + 1))) % ranks);
   }
   return rank_of;
 }
 
-std::vector<int> all_on_the_first(const TriangleMesh& mesh, int) { return std::vector<int>(mesh.triangle_count(), 0); }
+std::vector<int> all_on_the_first(const TriangleMesh& mesh, int) {
+  return std::vector<int>(mesh.triangle_count(), 0);
+}
 
-void write_scaling(const std::filesystem::path& folder, const Table& strong, const Table& weak, const Table& cut) {
-  Table scaling({"ranks", "strong", "weak", "cut", "strong_memory", "weak_memory", "cut_memory"});
+void write_scaling(const std::filesystem::path& folder, const Table& strong,
+                   const Table& weak, const Table& cut) {
+  Table scaling(
+      {"ranks", "strong", "weak", "cut", "strong_memory", "weak_memory", "cut_memory"});
   for (const Table& run : strong.rows()) {
     const TableEntry ranks = run.entry("ranks");
     std::vector<TableEntry> row{ranks};
-    for (const Table* runs : {&strong, &weak, &cut}) row.push_back(runs->filter("ranks", ranks).entry("iterations"));
     for (const Table* runs : {&strong, &weak, &cut})
-      row.emplace_back(runs->filter("ranks", ranks).number("megabytes") / runs->first("megabytes"));
+      row.push_back(runs->filter("ranks", ranks).entry("iterations"));
+    for (const Table* runs : {&strong, &weak, &cut})
+      row.emplace_back(runs->filter("ranks", ranks).number("megabytes") /
+                       runs->first("megabytes"));
     scaling.add(row);
   }
   scaling.write(folder / "scaling.csv");

@@ -13,8 +13,8 @@ inline Table draw_beam(const Beam& beam, const Solution& full, const Solution& r
   for (int i = 0; i <= beam.cells; ++i) {
     const double x = i * (1.0 / beam.cells);
     const bool inside = i > 0 && i < beam.cells;
-    table.add({x, full.u(2 * i), reduced.u(2 * i), exact.deflection(x), inside ? full.lambda(i - 1) : 0.0,
-               inside ? reduced.lambda(i - 1) : 0.0});
+    table.add({x, full.u(2 * i), reduced.u(2 * i), exact.deflection(x),
+               inside ? full.lambda(i - 1) : 0.0, inside ? reduced.lambda(i - 1) : 0.0});
   }
   return table;
 }

@@ -5,27 +5,33 @@
 // Run: 26_elasticity --exercise 1
 // Run: 26_elasticity --exercise 2
 //
-// Needs: [06](../06_p1_unstructured/06_p1_unstructured.cpp) for locking, [07](../07_kernel/07_kernel.cpp) for kernels, [08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) for
-// Crouzeix–Raviart (CR). **Here ε is the parameter of the class (1) itself**, $ε = 1/λ$ (in (23) it is $ε^2$).
+// Needs: [06](../06_p1_unstructured/06_p1_unstructured.cpp) for locking,
+// [07](../07_kernel/07_kernel.cpp) for kernels,
+// [08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) for Crouzeix–Raviart (CR). **Here ε
+// is the parameter of the class (1) itself**, $ε = 1/λ$ (in (23) it is $ε^2$).
 //
-// **The picture.** A block of rubber hangs under a rigid plate, its sides free, and is pushed by 0.1 on the obstacle
-// $y = -(x - 1/2)^2$. *P1 on parallel triangles hardly bulges, its left side not at all; its pressure is noise and
-// its contact force nearly three times the true one. CR on the very same triangles bulges evenly.*
+// **The picture.** A block of rubber hangs under a rigid plate, its sides free, and is
+// pushed by 0.1 on the obstacle $y = -(x - 1/2)^2$. *P1 on parallel triangles hardly
+// bulges, its left side not at all; its pressure is noise and its contact force nearly
+// three times the true one. CR on the very same triangles bulges evenly.*
 //
-// **Predict.** Rubber keeps its volume: in the limit $\operatorname{div} u = 0$ is asked of every triangle. Count on
-// $n × n$ squares cut in two: (a) how many conditions, and how many unknowns has P1? (b) And CR?
+// **Predict.** Rubber keeps its volume: in the limit $\operatorname{div} u = 0$ is asked of
+// every triangle. Count on $n × n$ squares cut in two: (a) how many conditions, and how
+// many unknowns has P1? (b) And CR?
 //
 // ## Rubber in the class
 //
-// The body is in plane strain: nothing moves out of the plane. Its shear modulus is $μ = 1$, its strain is
-// $e(u) = ½ (∇u + ∇u^T)$. On this page $λ$ is Lamé's parameter, the stiffness against a change of volume, and not the
-// contact force of the other chapters. The energy is
+// The body is in plane strain: nothing moves out of the plane. Its shear modulus is
+// $μ = 1$, its strain is $e(u) = ½ (∇u + ∇u^T)$. On this page $λ$ is Lamé's parameter, the
+// stiffness against a change of volume, and not the contact force of the other chapters.
+// The energy is
 //
 // $$ ∫ e(u) : e(u) + \frac{λ}{2} ∫ (\operatorname{div} u)^2, $$
 //
-// the paper's class with $a_0 = ∫ \operatorname{div} u \operatorname{div} v$ and the class parameter $1/λ$. On a P1
-// or CR triangle $\operatorname{div} u$ is constant: one row of $B$ per triangle, $2n^2$ conditions. P1 has two
-// unknowns per vertex that is not held: $2n(n + 1)$. On parallel triangles $2n$ functions are left.
+// the paper's class with $a_0 = ∫ \operatorname{div} u \operatorname{div} v$ and the class
+// parameter $1/λ$. On a P1 or CR triangle $\operatorname{div} u$ is constant: one row of
+// $B$ per triangle, $2n^2$ conditions. P1 has two unknowns per vertex that is not held:
+// $2n(n + 1)$. On parallel triangles $2n$ functions are left.
 //
 // Is that too few? In chapter 07 structured P1 keeps $n - 1$ of the layer's some $n^2$
 // unknowns, and it does not lock. There $G$ holds functions of one variable, and $n - 1$
@@ -34,17 +40,22 @@
 // asks for about $n^2$ values, and $2n$ of them cannot do. Three cures leave about $n^2$ or
 // more:
 //
-// - *crossed triangles*: each square is cut by both diagonals, and one of its four conditions follows from the other
+// - *crossed triangles*: each square is cut by both diagonals, and one of its four
+//   conditions follows from the other
 // three;
-// - *CR*, three unknowns per triangle. With $e(u)$ in place of $∇u$ it has motions without energy that are not rigid;
+// - *CR*, three unknowns per triangle. With $e(u)$ in place of $∇u$ it has motions without
+//   energy that are not rigid;
 // the jumps over edges, penalised with weight 1, remove them (Hansbo and Larson 2003);
 // - *Kouhia–Stenberg* (1995): P1 for one component, CR for the other. It needs no jumps.
 //
-// Two checks need no reference: a *patch test* (a uniform strain must come out exactly on any mesh) and the number of
-// motions without energy. The reference of the contact force is Taylor–Hood, P2 with a continuous P1 pressure, on
-// graded meshes (`freefem/26_elasticity.edp`). (In the file for pictures the pressure of P1 on crossed triangles is the mean
-// over each square. Triangle by triangle it carries a checkerboard in every square: the fourth condition, which follows
-// from the other three, has no pressure of its own. What that means is the subject of [pressures](../29_pressure/29_pressure.cpp).)
+// Two checks need no reference: a *patch test* (a uniform strain must come out exactly on
+// any mesh) and the number of motions without energy. The reference of the contact force is
+// Taylor–Hood, P2 with a continuous P1 pressure, on graded meshes
+// (`freefem/26_elasticity.edp`). (In the file for pictures the pressure of P1 on crossed
+// triangles is the mean over each square. Triangle by triangle it carries a checkerboard in
+// every square: the fourth condition, which follows from the other three, has no pressure
+// of its own. What that means is the subject of
+// [pressures](../29_pressure/29_pressure.cpp).)
 
 #include "antilock/study/sweep.hpp"
 #include "course/rubber.hpp"
@@ -56,12 +67,14 @@ using tutorial::Rubber;
 double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the obstacle below y = 0
 
 // ### Mesh
-// A `Rubber` is one of five discretisations: triangles, an element per component, jumps to be penalised or not.
+// A `Rubber` is one of five discretisations: triangles, an element per component, jumps to
+// be penalised or not.
 //
 // ### Forms
-// $u = (0, -0.1)$ on top, $u_y ≥ -$gap below. It fills $A_1$, $B$, $M$ and the bounds; the rest is the scalar
-// problem's.
-VariationalInequality pushed(const Rubber& rubber, const VectorSpace& space, double jump_weight) {
+// $u = (0, -0.1)$ on top, $u_y ≥ -$gap below. It fills $A_1$, $B$, $M$ and the bounds; the
+// rest is the scalar problem's.
+VariationalInequality pushed(const Rubber& rubber, const VectorSpace& space,
+                             double jump_weight) {
   PlaneStrain scene;
   scene.gap = gap;
   scene.jump_weight = rubber.jumps ? jump_weight : 0;
@@ -71,8 +84,10 @@ VariationalInequality pushed(const Rubber& rubber, const VectorSpace& space, dou
 void judge(const Table& checks, const Table& forces, int cells, tutorial::Report& report);
 
 void push(const tutorial::Options& options, tutorial::Report& report) {
-  Table checks({"element", "unknowns", "kernel", "patch", "zero_modes", "without_jumps", "bulge left", "right"});
-  Table forces({"element", "lambda", "epsilon", "force", "corrections", "percent", "known", "locks"});
+  Table checks({"element", "unknowns", "kernel", "patch", "zero_modes", "without_jumps",
+                "bulge left", "right"});
+  Table forces({"element", "lambda", "epsilon", "force", "corrections", "percent", "known",
+                "locks"});
   for (const Rubber& rubber : tutorial::rubbers(options.cells)) {
     report.stage(rubber.name);
     const Space x(rubber.mesh, rubber.in_x), y(x, rubber.in_y);
@@ -80,15 +95,17 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
     const VariationalInequality problem = pushed(rubber, space, 1);
 
     // ### Solve
-    // The contact force at every λ; its error in % where the reference is known. The forms do not hold λ, and all
-    // large λ share one factorisation.
+    // The contact force at every λ; its error in % where the reference is known. The forms
+    // do not hold λ, and all large λ share one factorisation.
     Sweep sweep(problem);
-    for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0}) {
+    for (const double epsilon :
+         {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0}) {
       sweep.set_compliance(epsilon);
       const Solution solution = sweep.solve();
-      const double force = solution.lambda.sum(), percent = tutorial::percent_too_large(force, epsilon);
-      forces.add({rubber.name, 1 / epsilon, epsilon, force, solution.counters.corrections, percent,
-                  !std::isnan(percent), rubber.locks});
+      const double force = solution.lambda.sum(),
+                   percent = tutorial::percent_too_large(force, epsilon);
+      forces.add({rubber.name, 1 / epsilon, epsilon, force, solution.counters.corrections,
+                  percent, !std::isnan(percent), rubber.locks});
     }
 
     // ### Output
@@ -97,11 +114,14 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
     const Solution solution = sweep.solve();
     tutorial::write_block(options.out, rubber, space, solution);
 
-    // The checks that need no reference: what $B$ leaves free, patch test, motions without energy.
+    // The checks that need no reference: what $B$ leaves free, patch test, motions without
+    // energy.
     checks.add({rubber.name, problem.free_count(), kernel_dimension(problem),
-                std::max(tutorial::patch_error(rubber, 1), tutorial::patch_error(rubber, options.epsilon)),
+                std::max(tutorial::patch_error(rubber, 1),
+                         tutorial::patch_error(rubber, options.epsilon)),
                 tutorial::zero_modes(problem),
-                rubber.jumps ? TableEntry(tutorial::zero_modes(pushed(rubber, space, 0))) : TableEntry(""),
+                rubber.jumps ? TableEntry(tutorial::zero_modes(pushed(rubber, space, 0)))
+                             : TableEntry(""),
                 tutorial::bulge(x, solution.u, 0), tutorial::bulge(x, solution.u, 1)});
   }
   report.finish();
@@ -111,37 +131,53 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
 
 void judge(const Table& checks, const Table& forces, int cells, tutorial::Report& report) {
   const Table jumping = checks.filter("element", "Crouzeix-Raviart with jumps");
-  report.claim(checks.max("patch") < 1e-12, "(proved) patch test: every method has the uniform strain to {:.0e}",
+  report.claim(checks.max("patch") < 1e-12,
+               "(proved) patch test: every method has the uniform strain to {:.0e}",
                checks.max("patch"));
-  report.claim(jumping.number("without_jumps") == 2 * cells && checks.max("zero_modes") == 0,
-               "(observed) motions of no energy: {} = 2n without jumps, {} in every method here",
-               jumping.number("without_jumps"), checks.max("zero_modes"));
-  const auto kernel = [&](const char* element) { return checks.filter("element", element).number("kernel"); };
   report.claim(
-      kernel("P1 right diagonals") == 2 * cells && kernel("P1 crossed triangles") == cells * (cells + 2),
-      "(observed) dim G_h of P1: {} = 2n on parallel triangles, {} on arbitrary ones, {} = n^2 + 2n on crossed ones",
-      kernel("P1 right diagonals"), kernel("P1 unstructured"), kernel("P1 crossed triangles"));
+      jumping.number("without_jumps") == 2 * cells && checks.max("zero_modes") == 0,
+      "(observed) motions of no energy: {} = 2n without jumps, {} in every method here",
+      jumping.number("without_jumps"), checks.max("zero_modes"));
+  const auto kernel = [&](const char* element) {
+    return checks.filter("element", element).number("kernel");
+  };
+  report.claim(kernel("P1 right diagonals") == 2 * cells &&
+                   kernel("P1 crossed triangles") == cells * (cells + 2),
+               "(observed) dim G_h of P1: {} = 2n on parallel triangles, {} on arbitrary "
+               "ones, {} = n^2 + 2n on crossed ones",
+               kernel("P1 right diagonals"), kernel("P1 unstructured"),
+               kernel("P1 crossed triangles"));
   const Table free = forces.filter("locks", 0), known = free.filter("known", 1);
-  const double corrections = free.max("corrections"), worst = std::max(known.max("percent"), -known.min("percent"));
-  report.claim(corrections <= 4, "(observed) {} corrections at most at any lambda where nothing locks", corrections);
-  if (cells < 8) return report.not_judged("the contact force: fewer than 8 cells do not tell locked from inexact");
+  const double corrections = free.max("corrections"),
+               worst = std::max(known.max("percent"), -known.min("percent"));
+  report.claim(corrections <= 4,
+               "(observed) {} corrections at most at any lambda where nothing locks",
+               corrections);
+  if (cells < 8)
+    return report.not_judged(
+        "the contact force: fewer than 8 cells do not tell locked from inexact");
   const Table limit = forces.filter("locks", 1).filter("epsilon", 0),
               soft = forces.filter("locks", 1).filter("epsilon", 1);
   report.claim(
-      limit.min("percent") > 150 && soft.max("percent") < 100 * std::pow(cells, -1.5),  // 51 to 86 on 8 to 64 cells
-      "(observed) P1 on parallel or arbitrary triangles locks: force {:.0f} % too large or more in the limit, right "
+      limit.min("percent") > 150 &&
+          soft.max("percent") < 100 * std::pow(cells, -1.5),  // 51 to 86 on 8 to 64 cells
+      "(observed) P1 on parallel or arbitrary triangles locks: force {:.0f} % too large or "
+      "more in the limit, right "
       "to {:.2f} % at lambda = 1",
       limit.min("percent"), soft.max("percent"));
   // The end of contact is known to a cell: a multiple of $h$ that jumps from mesh to mesh.
-  report.claim(worst < 22.0 / cells,
-               "(observed) the other three are off by {:.0f} h per cent, at any lambda of the table", worst * cells);
+  report.claim(
+      worst < 22.0 / cells,
+      "(observed) the other three are off by {:.0f} h per cent, at any lambda of the table",
+      worst * cells);
 }
 
 // ## What came out
 //
-// (a) $2n^2$ conditions and about as many unknowns. (b) As many conditions, and three times as many unknowns. Where
-// nothing locks the force is right to 11 h per cent at every λ ($h = 1/32$), in at most 2 corrections. P1 on parallel or
-// arbitrary triangles is right at λ = 1, and more than 100 % off in the limit. The pressure of P1 reaches 46 in stripes,
+// (a) $2n^2$ conditions and about as many unknowns. (b) As many conditions, and three times
+// as many unknowns. Where nothing locks the force is right to 11 h per cent at every λ
+// ($h = 1/32$), in at most 2 corrections. P1 on parallel or arbitrary triangles is right at
+// λ = 1, and more than 100 % off in the limit. The pressure of P1 reaches 46 in stripes,
 // where that of CR stays below 0.7, and Taylor–Hood's at about 1 (chapter 29).
 //
 // :figure: elasticity_force
@@ -149,18 +185,21 @@ void judge(const Table& checks, const Table& forces, int cells, tutorial::Report
 //
 // ## Exercises
 //
-// 1. CR penalises its jumps with weight 1. Between weight 0.1 and 10, how much does the contact force change, on 8
-//    and on 16 cells?
-// 2. Count what is left at 1/h = 4 and 8: how does $\dim G_h$ of P1 grow under refinement? And that of CR?
+// 1. CR penalises its jumps with weight 1. Between weight 0.1 and 10, how much does the
+//    contact force change, on 8 and on 16 cells?
+// 2. Count what is left at 1/h = 4 and 8: how does $\dim G_h$ of P1 grow under refinement?
+//    And that of CR?
 // 3. On paper: in a crossed square, why does the fourth condition follow from three?
 
 #include "answers.hpp"
 
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "26_elasticity", "Nearly incompressible elasticity in contact: five discretisations",
-                       {.epsilon = 1e-8,
-                        .epsilon_is = "the class parameter of (1), 1/lambda; 0 is incompressible",
-                        .least_cells = 2,  // below, no vertex of the obstacle is free in x
-                        .exercises = exercises},
-                       push);
+  return tutorial::run(
+      argc, argv, "26_elasticity",
+      "Nearly incompressible elasticity in contact: five discretisations",
+      {.epsilon = 1e-8,
+       .epsilon_is = "the class parameter of (1), 1/lambda; 0 is incompressible",
+       .least_cells = 2,  // below, no vertex of the obstacle is free in x
+       .exercises = exercises},
+      push);
 }

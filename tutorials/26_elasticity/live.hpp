@@ -12,5 +12,6 @@ void press(const tutorial::Options& options, tutorial::Report&) {
 
 int figure(int argc, char** argv) {
   return tutorial::run(argc, argv, "figure_26_elasticity", "the contact force",
-                       {.epsilon = 1, .cells = 8, .least_cells = 8, .most_cells = 32}, press);
+                       {.epsilon = 1, .cells = 8, .least_cells = 8, .most_cells = 32},
+                       press);
 }

@@ -8,7 +8,8 @@
 
 namespace antilock::tutorial {
 
-/// -p; on crossed triangles, which carry a checkerboard in every square, the mean over the square.
+/// -p; on crossed triangles, which carry a checkerboard in every square, the mean over the
+/// square.
 inline Eigen::VectorXd pressure(const Rubber& rubber, const Solution& solution) {
   Eigen::VectorXd p = -solution.p;
   if (rubber.file == "p1_crossed")
@@ -18,19 +19,23 @@ inline Eigen::VectorXd pressure(const Rubber& rubber, const Solution& solution) 
 }
 
 /// The deformed block with its pressure -lambda div u.
-inline void write_block(const std::filesystem::path& out, const Rubber& rubber, const VectorSpace& space,
-                        const Solution& solution) {
-  write_deformed_vtu(out / (rubber.file + ".vtu"), space, solution.u, pressure(rubber, solution));
+inline void write_block(const std::filesystem::path& out, const Rubber& rubber,
+                        const VectorSpace& space, const Solution& solution) {
+  write_deformed_vtu(out / (rubber.file + ".vtu"), space, solution.u,
+                     pressure(rubber, solution));
   if (rubber.file == "p1_right") write_freefem_mesh(out / "mesh.freefem.msh", rubber.mesh);
 }
 
 /// Writes force.csv, and obstacle.csv of the picture; prints the tables of the chapter.
-inline void show_rubber(const std::filesystem::path& out, const Table& checks, const Table& forces,
-                        const Profile& gap) {
+inline void show_rubber(const std::filesystem::path& out, const Table& checks,
+                        const Table& forces, const Profile& gap) {
   checks.print("", 2);
-  forces.filter("known", 1).pivot("element", "lambda", "percent").print("error of the contact force in %, by lambda");
+  forces.filter("known", 1)
+      .pivot("element", "lambda", "percent")
+      .print("error of the contact force in %, by lambda");
   forces.pivot("element", "lambda", "corrections").print("corrections, by lambda");
-  forces.select({"element", "lambda", "epsilon", "force", "corrections"}).write(out / "force.csv");
+  forces.select({"element", "lambda", "epsilon", "force", "corrections"})
+      .write(out / "force.csv");
   Table obstacle({"x", "y"});
   for (int i = 0; i <= 40; ++i) obstacle.add({-0.1 + 0.03 * i, -gap(-0.1 + 0.03 * i)});
   obstacle.write(out / "obstacle.csv");

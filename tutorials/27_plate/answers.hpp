@@ -1,47 +1,64 @@
 #pragma once
-// The answers to the exercises of 27_plate, whose page includes this one: to be read after predicting.
+// The answers to the exercises of 27_plate, whose page includes this one: to be read after
+// predicting.
 
 const auto pressed = [](const PlateElement& method, int rings, const Plate& plate) {
-  const VariationalInequality problem = assemble(plate, tutorial::plate_space(method, disc_mesh(rings)));
+  const VariationalInequality problem =
+      assemble(plate, tutorial::plate_space(method, disc_mesh(rings)));
   return std::pair(active_set(problem), kernel_dimension(problem));
 };
 const std::vector<tutorial::Exercise> exercises{
-    {"Leave the bubbles out of Arnold-Falk: how many functions are left at least, and does it lock at t = 0?",
-     "(9 n^2 - 3 n) + 2 (3 n^2 - 3 n + 1) unknowns less 12 n^2 conditions: 3 n^2 - 9 n + 2 at least, a number that "
-     "grows like the unknowns. It does not lock on these two meshes, but its error is larger, and we know of no "
+    {"Leave the bubbles out of Arnold-Falk: how many functions are left at least, and does "
+     "it lock at t = 0?",
+     "(9 n^2 - 3 n) + 2 (3 n^2 - 3 n + 1) unknowns less 12 n^2 conditions: 3 n^2 - 9 n + 2 "
+     "at least, a number that "
+     "grows like the unknowns. It does not lock on these two meshes, but its error is "
+     "larger, and we know of no "
      "theorem that covers it",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const PlateElement bare{"without bubbles", "", crouzeix_raviart(), p1(), ShearRule::mean, false};
+       const PlateElement bare{"without bubbles", "",   crouzeix_raviart(), p1(),
+                               ShearRule::mean,   false};
        std::vector<double> without, with;
        for (const int n : {4, 8}) {
          const Space w(disc_mesh(n), crouzeix_raviart());
          const auto [solution, kernel] = pressed(bare, n, Plate{.thickness = 0});
          without.push_back(error_of_w(w, solution, ExactPlate(0)));
-         with.push_back(error_of_w(w, pressed(plate_elements.back(), n, Plate{.thickness = 0}).first, ExactPlate(0)));
-         report.claim(kernel >= 3 * n * n - 9 * n + 2, "{} rings: {} functions, at least {}", n, kernel,
+         with.push_back(
+             error_of_w(w, pressed(plate_elements.back(), n, Plate{.thickness = 0}).first,
+                        ExactPlate(0)));
+         report.claim(kernel >= 3 * n * n - 9 * n + 2,
+                      "{} rings: {} functions, at least {}", n, kernel,
                       3 * n * n - 9 * n + 2);
        }
-       report.claim(without[1] < without[0] / 2, "it converges: error of w {:.4f}, then {:.4f}", without[0],
-                    without[1]);
-       report.claim(without[0] > with[0] && without[1] > with[1], "with bubbles {:.4f}, then {:.4f}", with[0], with[1]);
+       report.claim(without[1] < without[0] / 2,
+                    "it converges: error of w {:.4f}, then {:.4f}", without[0], without[1]);
+       report.claim(without[0] > with[0] && without[1] > with[1],
+                    "with bubbles {:.4f}, then {:.4f}", with[0], with[1]);
      }},
-    {"Double the load and the gap. Do deflection and contact force double? And the disc of contact?",
-     "deflection and force double, the disc stays. Twice a deflection that the gap 1 allows is one that the gap 2 "
+    {"Double the load and the gap. Do deflection and contact force double? And the disc of "
+     "contact?",
+     "deflection and force double, the disc stays. Twice a deflection that the gap 1 "
+     "allows is one that the gap 2 "
      "allows, "
-     "and with twice the load its energy is four times as large: what is least before is least after",
+     "and with twice the load its energy is four times as large: what is least before is "
+     "least after",
      [](const tutorial::Options&, tutorial::Report& report) {
        Plate twice{.load = [](double, double) { return -512.0; }};
        twice.gap = [](double, double) { return 2.0; };
        const Solution one = pressed(plate_elements.back(), 8, Plate{}).first,
                       two = pressed(plate_elements.back(), 8, twice).first;
-       report.claim_within((two.u - 2 * one.u).norm() / one.u.norm(), 0, 1e-9, "u - 2 u, relative");
-       report.claim_within(two.lambda.sum() / one.lambda.sum(), 2 - 1e-9, 2 + 1e-9, "contact force, times");
+       report.claim_within((two.u - 2 * one.u).norm() / one.u.norm(), 0, 1e-9,
+                           "u - 2 u, relative");
+       report.claim_within(two.lambda.sum() / one.lambda.sum(), 2 - 1e-9, 2 + 1e-9,
+                           "contact force, times");
        report.claim(two.active == one.active, "the same contact set");
      }}};
 
 // ## Answers on paper
 //
-// **3.** Without shear the mean of $(∇w - θ)·τ$ over each edge is 0. For an edge from $a$ to $b$ of length $ℓ$ the mean of
-// $∇w·τ$ is $(w(b) - w(a))/ℓ$. The P1 part of θ has the mean $½ (θ(a) + θ(b))·τ$, and the edge function of this edge has a
-// fixed mean, while those of the other edges are 0 here. So its coefficient is the difference of two numbers that are
-// known at the vertices. Three unknowns per vertex are left, which is what the kernel counts.
+// **3.** Without shear the mean of $(∇w - θ)·τ$ over each edge is 0. For an edge from $a$
+// to $b$ of length $ℓ$ the mean of $∇w·τ$ is $(w(b) - w(a))/ℓ$. The P1 part of θ has the
+// mean $½ (θ(a) + θ(b))·τ$, and the edge function of this edge has a fixed mean, while
+// those of the other edges are 0 here. So its coefficient is the difference of two numbers
+// that are known at the vertices. Three unknowns per vertex are left, which is what the
+// kernel counts.

@@ -15,7 +15,8 @@
 
 namespace antilock::tutorial {
 
-/// A discretisation of the plate: an element for w, one for each component of theta, and what of the shear counts.
+/// A discretisation of the plate: an element for w, one for each component of theta, and
+/// what of the shear counts.
 struct PlateElement {
   std::string name, file;
   const Element &deflection, &rotation;
@@ -25,13 +26,15 @@ struct PlateElement {
 
 /// The method on a mesh.
 inline PlateSpace plate_space(const PlateElement& method, TriangleMesh mesh) {
-  const Space deflection(std::move(mesh), method.deflection), rotation(deflection, method.rotation);
+  const Space deflection(std::move(mesh), method.deflection),
+      rotation(deflection, method.rotation);
   return {deflection, {rotation, rotation}, method.shear};
 }
 
-/// The patch test: largest error of theta at the vertices of a plate that is bent by its rim with the constant curvature
-/// of w = x^2 + x y - y^2 / 2.
-inline double patch_error(const PlateElement& method, const TriangleMesh& mesh, double thickness) {
+/// The patch test: largest error of theta at the vertices of a plate that is bent by its
+/// rim with the constant curvature of w = x^2 + x y - y^2 / 2.
+inline double patch_error(const PlateElement& method, const TriangleMesh& mesh,
+                          double thickness) {
   const PlateSpace space = plate_space(method, mesh);
   Plate bent{.thickness = thickness, .load = [](double, double) { return 0.0; }};
   bent.gap = [](double, double) { return std::numeric_limits<double>::infinity(); };
@@ -42,13 +45,16 @@ inline double patch_error(const PlateElement& method, const TriangleMesh& mesh, 
   double worst = 0;
   for (int i = 0; i < mesh.vertex_count(); ++i) {
     const double x = mesh.vertices(i, 0), y = mesh.vertices(i, 1);
-    worst = std::max({worst, std::abs(u(space.theta_x() + i) - 2 * x - y), std::abs(u(space.theta_y() + i) - x + y)});
+    worst = std::max({worst, std::abs(u(space.theta_x() + i) - 2 * x - y),
+                      std::abs(u(space.theta_y() + i) - x + y)});
   }
   return worst;
 }
 
-/// The error of w in L2: the same for an element with unknowns at vertices and for one with unknowns at midpoints.
-inline double error_of_w(const Space& w, const Solution& solution, const ExactPlate& exact) {
+/// The error of w in L2: the same for an element with unknowns at vertices and for one with
+/// unknowns at midpoints.
+inline double error_of_w(const Space& w, const Solution& solution,
+                         const ExactPlate& exact) {
   const Quadrature& rule = triangle_rule(4);
   double square = 0;
   for (int t = 0; t < w.mesh().triangle_count(); ++t) {
@@ -56,23 +62,25 @@ inline double error_of_w(const Space& w, const Solution& solution, const ExactPl
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const double here = w.element().basis(rule.points.row(q)).dot(solution.u(unknowns));
       const double r = point_in(w.mesh(), t, rule.points.row(q)).norm();
-      square += w.mesh().area(t) * rule.weights(q) * std::pow(here - exact.deflection(r), 2);
+      square +=
+          w.mesh().area(t) * rule.weights(q) * std::pow(here - exact.deflection(r), 2);
     }
   }
   return std::sqrt(square);
 }
 
-/// Sixteen t per decade where the disc of contact still grows with t, then 0 and what leads to it. Thicker plates than
-/// t = 0.1 fall on the obstacle within a ring or two of the rim.
+/// Sixteen t per decade where the disc of contact still grows with t, then 0 and what leads
+/// to it. Thicker plates than t = 0.1 fall on the obstacle within a ring or two of the rim.
 inline std::vector<double> thicknesses() {
   std::vector<double> all{3e-3, 1e-3, 1e-4, 1e-6, 1e-8, 1e-20, 0};
   for (int k = 16; k >= 0; --k) all.insert(all.begin(), std::pow(10, -1 - k / 16.0));
   return all;
 }
 
-/// FILE.vtu, mesh.freefem.msh, and rows x, element, w along the diameter y = 0; with "p1" the exact plate's too.
-inline void draw(const Options& options, const PlateElement& method, const Space& w, const Solution& solution,
-                 Table& profile) {
+/// FILE.vtu, mesh.freefem.msh, and rows x, element, w along the diameter y = 0; with "p1"
+/// the exact plate's too.
+inline void draw(const Options& options, const PlateElement& method, const Space& w,
+                 const Solution& solution, Table& profile) {
   const TriangleMesh& mesh = w.mesh();
   const ExactPlate exact(std::sqrt(options.epsilon));
   std::vector<std::pair<double, int>> edges;  // x of the midpoint, edge
@@ -91,8 +99,10 @@ inline void draw(const Options& options, const PlateElement& method, const Space
   write_vtu(options.out / (method.file + ".vtu"), w, solution.u.head(w.size()));
 }
 
-/// Prints the checks, one row per element; writes errors.csv (three meshes) and profile.csv.
-inline void print_plate(const Options& options, const Table& checks, const Table& errors, const Table& profile) {
+/// Prints the checks, one row per element; writes errors.csv (three meshes) and
+/// profile.csv.
+inline void print_plate(const Options& options, const Table& checks, const Table& errors,
+                        const Table& profile) {
   checks.print("", 3);
   errors.filter_number("t", [](double t) { return t >= 1e-6; })
       .filter_number("rings", [&](double n) { return n <= options.cells; })

@@ -18,15 +18,19 @@ void rub_once(const tutorial::Options& options, tutorial::Report&) {
   row.add(tutorial::floor_row(rubber, options.cells, x, problem, solution));
   const double t = row.number("T");
   fmt::print(
-      "It sticks on {:.2f} of the floor. The floor pulls the left half {} with {:.4f}; the left half slips by {:.4f} "
+      "It sticks on {:.2f} of the floor. The floor pulls the left half {} with {:.4f}; the "
+      "left half slips by {:.4f} "
       "at most.\n",
-      row.number("sticks"), t > 0 ? "to the right" : "to the left", std::abs(t), std::abs(row.number("slip")));
+      row.number("sticks"), t > 0 ? "to the right" : "to the left", std::abs(t),
+      std::abs(row.number("slip")));
 }
 
 int figure(int argc, char** argv) {
   const auto add = [](CLI::App& line) {
     line.add_option("--rough", roughness, "times g")->check(CLI::Range(0.0, 4.0));
   };
-  return tutorial::run(argc, argv, "figure_30_friction", "stick and slip",
-                       {.epsilon = 1e-8, .cells = 32, .least_cells = 8, .most_cells = 64, .add = add}, rub_once);
+  return tutorial::run(
+      argc, argv, "figure_30_friction", "stick and slip",
+      {.epsilon = 1e-8, .cells = 32, .least_cells = 8, .most_cells = 64, .add = add},
+      rub_once);
 }

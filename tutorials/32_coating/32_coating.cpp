@@ -6,12 +6,15 @@
 // Run: 32_coating --exercise 2
 // Run: 32_coating --exercise 3
 //
-// Needs: [07](../07_kernel/07_kernel.cpp) for kernels, [10](../10_limits/10_limits.cpp) for the stretched layer and its limit, [13](../13_uniform/13_uniform.cpp)
-// for the supremum, [26](../26_elasticity/26_elasticity.cpp) for elasticity and the jumps of Crouzeix–Raviart (CR).
+// Needs: [07](../07_kernel/07_kernel.cpp) for kernels, [10](../10_limits/10_limits.cpp) for
+// the stretched layer and its limit, [13](../13_uniform/13_uniform.cpp) for the supremum,
+// [26](../26_elasticity/26_elasticity.cpp) for elasticity and the jumps of Crouzeix–Raviart
+// (CR).
 //
-// **The picture.** A block is pressed on a round punch. Its lower side carries a coating, a million times thinner and
-// stiffer (drawn stretched to the depth 1). *P1 on arbitrary triangles holds the coating flat: it touches the punch at
-// its top alone, and the contact force is 73 % too large. With CR the coating follows the block.*
+// **The picture.** A block is pressed on a round punch. Its lower side carries a coating, a
+// million times thinner and stiffer (drawn stretched to the depth 1). *P1 on arbitrary
+// triangles holds the coating flat: it touches the punch at its top alone, and the contact
+// force is 73 % too large. With CR the coating follows the block.*
 //
 // **Predict.** The displacement has two components, $u$ along the coating and $v$ across
 // it. (a) P1 locks, CR does not. Which of the two has to be CR for the right force, or
@@ -21,13 +24,14 @@
 //
 // ## From a thin coating to the class
 //
-// The coating has the thickness $t$ and the moduli $λ/t$ and $μ/t$: half as thick means twice as stiff. (All lengths
-// are relative to the side of the block. In (22) the same scaling is $μ/ε$.) Its energy is half of
+// The coating has the thickness $t$ and the moduli $λ/t$ and $μ/t$: half as thick means
+// twice as stiff. (All lengths are relative to the side of the block. In (22) the same
+// scaling is $μ/ε$.) Its energy is half of
 //
 // $$ \frac{1}{t} ∫_{-t}^{0} λ (u_x + v_y)^2 + 2μ u_x^2 + 2μ v_y^2 + μ (u_y + v_x)^2. $$
 //
-// Stretch it: with $Y = y/t$ a slope across is divided by $t$, the area is multiplied by it. The factor in front
-// cancels:
+// Stretch it: with $Y = y/t$ a slope across is divided by $t$, the area is multiplied by
+// it. The factor in front cancels:
 //
 // $$ ∫_{-1}^{0} λ (u_x + v_Y/t)^2 + 2μ u_x^2 + 2μ (v_Y/t)^2 + μ (u_Y/t + v_x)^2. $$
 //
@@ -40,38 +44,44 @@
 // $$ (λ + 2μ) (v_Y/t + r u_x)^2 + E_m u_x^2 + μ (u_Y/t + v_x)^2,
 // E_m = λ + 2μ - \frac{λ^2}{λ + 2μ} = \frac{4μ(λ + μ)}{λ + 2μ}. $$
 //
-// This is the class (1) with the parameter $t^2$. The middle term joins $a_1$. The two squares are the stiff form:
-// times $t$, what is squared in them gives two rows of $B$ per point, with weights $λ + 2μ$ and $μ$ in $M$:
+// This is the class (1) with the parameter $t^2$. The middle term joins $a_1$. The two
+// squares are the stiff form: times $t$, what is squared in them gives two rows of $B$ per
+// point, with weights $λ + 2μ$ and $μ$ in $M$:
 //
 // $$ v_Y + r t u_x,   u_Y + t v_x. $$
 //
-// In the limit both rows lose their second term. Then the displacement does not depend on $Y$, and the coating is a
-// *membrane* of modulus $E_m$ on the lower side of the block. Without the completed square $a_1$ would hold
-// $2 μ u_x^2$, and this would be the modulus of the limit: too soft, since thin coatings do not tend to it (exercise
-// 1).
+// In the limit both rows lose their second term. Then the displacement does not depend on
+// $Y$, and the coating is a
+// *membrane* of modulus $E_m$ on the lower side of the block. Without the completed square
+// $a_1$ would hold $2 μ u_x^2$, and this would be the modulus of the limit: too soft, since
+// thin coatings do not tend to it (exercise 1).
 //
 // ## Which component locks
 //
-// Contact asks for $v ≥ -$gap on $Γ_C$. In the limit $v$ does not change across the layer, so what touches the punch is
-// the lower side of the block. For $v$ this is the problem of chapter 06: with free sides P1 on arbitrary triangles has
-// $1$ and $x$ and no other function of $x$ alone, so the coating can be moved and tilted, but not bent round the punch.
-// The same holds for $u$. But $u$ is not asked to be anywhere on $Γ_C$. If it is locked, the coating and the lower side
-// of the block are only stretched evenly. This costs some energy, and the block still comes to lie on the punch.
+// Contact asks for $v ≥ -$gap on $Γ_C$. In the limit $v$ does not change across the layer,
+// so what touches the punch is the lower side of the block. For $v$ this is the problem of
+// chapter 06: with free sides P1 on arbitrary triangles has $1$ and $x$ and no other
+// function of $x$ alone, so the coating can be moved and tilted, but not bent round the
+// punch. The same holds for $u$. But $u$ is not asked to be anywhere on $Γ_C$. If it is
+// locked, the coating and the lower side of the block are only stretched evenly. This costs
+// some energy, and the block still comes to lie on the punch.
 //
 // ## Rows that depend on t
 //
-// In all chapters before, $B$ did not depend on the parameter. Here $B = B_0 + t B_1$. Take a motion $w$ that costs
-// nothing in the limit, $B_0 w = 0$. Can it be corrected by a small motion $t z$ so that it costs nothing for $t > 0$,
-// too? Multiply out:
+// In all chapters before, $B$ did not depend on the parameter. Here $B = B_0 + t B_1$. Take
+// a motion $w$ that costs nothing in the limit, $B_0 w = 0$. Can it be corrected by a small
+// motion $t z$ so that it costs nothing for $t > 0$, too? Multiply out:
 //
 // $$ B (w + t z) = t (B_1 w + B_0 z) + t^2 B_1 z. $$
 //
-// If some $z$ has $B_0 z = -B_1 w$, the first term is gone. The stiff energy is the square of the rest divided by
-// $t^2$: it is of order $t^2$, and the motion is free. If there is no such $z$, the stiff energy keeps a part that does
-// not depend on $t$: the motion is neither stiff nor free, however thin the coating is. The iterated penalty of chapter
-// 18 divides by $δ$ in place of $t^2$. With $δ$ far above $t^2$ it sees only the share $t^2/δ$ of this part, and each
-// correction brings in one more such share: it takes many. The remedy is $δ = t^2$. Down to $t = 10^{-6}$ the factor
-// still keeps enough digits of $A_1$. CR in both components needs no remedy: its slope across takes any values, one per
+// If some $z$ has $B_0 z = -B_1 w$, the first term is gone. The stiff energy is the square
+// of the rest divided by $t^2$: it is of order $t^2$, and the motion is free. If there is
+// no such $z$, the stiff energy keeps a part that does not depend on $t$: the motion is
+// neither stiff nor free, however thin the coating is. The iterated penalty of chapter 18
+// divides by $δ$ in place of $t^2$. With $δ$ far above $t^2$ it sees only the share $t^2/δ$
+// of this part, and each correction brings in one more such share: it takes many. The
+// remedy is $δ = t^2$. Down to $t = 10^{-6}$ the factor still keeps enough digits of $A_1$.
+// CR in both components needs no remedy: its slope across takes any values, one per
 // triangle, so there always is a $z$.
 
 #include <CLI/CLI.hpp>
@@ -88,8 +98,9 @@ double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the round punch be
 // element per component. `locks` is about the force.
 //
 // ### Forms
-// `models/coating.cpp` is those two formulas: `strain_form` for the block and for $E_m u_x^2$, `strain_form_factored`
-// for $B$. The top is moved down by 0.1, the sides are free.
+// `models/coating.cpp` is those two formulas: `strain_form` for the block and for
+// $E_m u_x^2$, `strain_form_factored` for $B$. The top is moved down by 0.1, the sides are
+// free.
 Coating coating(double thickness) {
   Coating scene;
   scene.thickness = thickness;
@@ -105,7 +116,8 @@ Solution pressed(const VectorSpace& space, double thickness) {
   return active_set(assemble(coating(thickness), space), options);
 }
 
-void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Report& report);
+void judge(const Table& forces, const Table& diagnoses, int cells,
+           tutorial::Report& report);
 
 void press(const tutorial::Options& options, double thickness, tutorial::Report& report) {
   Table forces({"method", "locks", "h", "t", "force", "percent", "corrections"});
@@ -117,20 +129,23 @@ void press(const tutorial::Options& options, double thickness, tutorial::Report&
       for (const double t : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 0.0}) {
         const Solution solution = pressed({x, y}, t);
         const double force = solution.lambda.sum();
-        forces.add({method.name, method.locks, 1.0 / n, t, force, 100 * std::abs(force / tutorial::reference(t) - 1),
+        forces.add({method.name, method.locks, 1.0 / n, t, force,
+                    100 * std::abs(force / tutorial::reference(t) - 1),
                     solution.counters.corrections});
       }
       // ### Output
       // The pressed coating, on the mesh in the middle.
       if (n == options.cells / 2)
-        tutorial::write_coating(options.out, method, {x, y}, pressed({x, y}, thickness), coating(thickness));
+        tutorial::write_coating(options.out, method, {x, y}, pressed({x, y}, thickness),
+                                coating(thickness));
     }
     // Asked before anything is solved: the limit problem on two meshes.
     const auto limit = [&](int n) {
       const Space x(method.mesh(n), method.in_x), y(x, method.in_y);
       return assemble(coating(0), {x, y});
     };
-    const LockingDiagnosis found = diagnose_locking(limit(options.cells / 4), limit(options.cells / 2));
+    const LockingDiagnosis found =
+        diagnose_locking(limit(options.cells / 4), limit(options.cells / 2));
     diagnoses.add({method.name, method.locks, found.locks(), found.text()});
   }
   report.finish();
@@ -138,41 +153,54 @@ void press(const tutorial::Options& options, double thickness, tutorial::Report&
   judge(forces, diagnoses, options.cells, report);
 }
 
-void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Report& report) {
+void judge(const Table& forces, const Table& diagnoses, int cells,
+           tutorial::Report& report) {
   for (const Table& method : diagnoses.rows())
-    report.claim(method.number("found") == method.number("locks"), "(observed) {}: {}", method.entry("method").text(),
-                 method.entry("says").text());
+    report.claim(method.number("found") == method.number("locks"), "(observed) {}: {}",
+                 method.entry("method").text(), method.entry("says").text());
   const Table thick = forces.filter_number("t", [](double t) { return t > 0; });
   double most = 0;
   for (const Table& run : thick.rows())
-    if (run.entry("method").text() != "P2 / P2") most = std::max(most, run.number("corrections"));
+    if (run.entry("method").text() != "P2 / P2")
+      most = std::max(most, run.number("corrections"));
   report.claim(most <= 10 && thick.max("corrections") <= 20,
-               "(observed) {} corrections at most where B depends on t, {} with P2", most, thick.max("corrections"));
-  if (cells < 32) return report.not_judged("the contact force: fewer than 32 cells do not tell locked from inexact");
+               "(observed) {} corrections at most where B depends on t, {} with P2", most,
+               thick.max("corrections"));
+  if (cells < 32)
+    return report.not_judged(
+        "the contact force: fewer than 32 cells do not tell locked from inexact");
   for (const TableEntry& name : forces.unique("method")) {
     const Table own = forces.filter("method", name);
     const tutorial::Supremum worst = tutorial::supremum(own, "percent", "t");
-    worst.rows.print(name.text() + ": the force is off by so many per cent, the largest over t");
+    worst.rows.print(name.text() +
+                     ": the force is off by so many per cent, the largest over t");
     if (own.max("locks") == 0) {
-      // The end of contact is known to a cell: a multiple of $h$ that jumps from mesh to mesh.
+      // The end of contact is known to a cell: a multiple of $h$ that jumps from mesh to
+      // mesh.
       const double per_h = worst.rows.last("worst") * cells;
       const double most_per_h = tutorial::percent_per_h(name.text());
-      report.claim(
-          per_h < most_per_h && per_h > most_per_h / 2 && worst.rows.last("worst") < worst.rows.first("worst") / 4,
-          "(observed) {}: the force is off by {:.0f} h per cent at worst, and by {:.0f} % of that on a mesh four "
-          "times as coarse",
-          name.text(), per_h, 100 * worst.rows.last("worst") / worst.rows.first("worst"));
+      report.claim(per_h < most_per_h && per_h > most_per_h / 2 &&
+                       worst.rows.last("worst") < worst.rows.first("worst") / 4,
+                   "(observed) {}: the force is off by {:.0f} h per cent at worst, and by "
+                   "{:.0f} % of that on a mesh four "
+                   "times as coarse",
+                   name.text(), per_h,
+                   100 * worst.rows.last("worst") / worst.rows.first("worst"));
     } else {
-      report.claim(
-          worst.rows.last("worst") > 15 && worst.rows.last("worst") > 0.7 * worst.rows.first("worst"),
-          "(observed) {} locks: the force is off by {:.0f} % at worst, on a mesh four times as coarse by {:.0f} %",
-          name.text(), worst.rows.last("worst"), worst.rows.first("worst"));
+      report.claim(worst.rows.last("worst") > 15 &&
+                       worst.rows.last("worst") > 0.7 * worst.rows.first("worst"),
+                   "(observed) {} locks: the force is off by {:.0f} % at worst, on a mesh "
+                   "four times as coarse by {:.0f} %",
+                   name.text(), worst.rows.last("worst"), worst.rows.first("worst"));
     }
   }
   const Table cr = forces.filter("method", "CR / CR").filter("h", 1.0 / cells);
-  const double last = cr.filter("t", 1e-6).number("force"), limit = cr.filter("t", 0.0).number("force");
-  report.claim(std::abs(last / limit - 1) < 1e-5,
-               "(observed) CR tends to its own limit: force {:.7f} at t = 1e-6, {:.7f} at 0", last, limit);
+  const double last = cr.filter("t", 1e-6).number("force"),
+               limit = cr.filter("t", 0.0).number("force");
+  report.claim(
+      std::abs(last / limit - 1) < 1e-5,
+      "(observed) CR tends to its own limit: force {:.7f} at t = 1e-6, {:.7f} at 0", last,
+      limit);
 }
 
 // ## What came out
@@ -197,25 +225,28 @@ void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Rep
 // no bounds. The dimension of the kernel would not help: for CR / P1 it grows fast with the
 // mesh, in the coating by motions of $u$.
 //
-// (b) Between: $E_m = 1.10$ lies between $2μ = 0.77$ and $λ + 2μ = 1.35$. In plane strain the sheet cannot become narrower out
-// of the plane, but it can become thinner.
+// (b) Between: $E_m = 1.10$ lies between $2μ = 0.77$ and $λ + 2μ = 1.35$. In plane strain
+// the sheet cannot become narrower out of the plane, but it can become thinner.
 //
 // The supremum over $t$ of an error shows in one number per mesh whether this output locks:
 // it falls, or it stays. It speaks of one functional, here of the force, and of no other.
 //
 // :output: corrections, by t
 //
-// At most 8 corrections where $B$ depends on $t$, and some 10 with P2 and $t > 0$. With the penalty $δ ≈ 6 · 10^{-8}$ of
-// the other chapters, P1 in columns and P1 / CR take some 40 at $t = 10^{-6}$ (exercise 3). P1 in columns and P1 / CR
-// have another force at $t = 0$ than for $t → 0$: there are motions $w$ without a $z$. Of their energy $|B_1 w|^2$ a part
+// At most 8 corrections where $B$ depends on $t$, and some 10 with P2 and $t > 0$. With the
+// penalty $δ ≈ 6 · 10^{-8}$ of the other chapters, P1 in columns and P1 / CR take some 40
+// at $t = 10^{-6}$ (exercise 3). P1 in columns and P1 / CR have another force at $t = 0$
+// than for $t → 0$: there are motions $w$ without a $z$. Of their energy $|B_1 w|^2$ a part
 // of order $h^2$, which no $z$ removes, is present for $t > 0$ and absent at $t = 0$.
 //
 // ## Exercises
 //
-// 1. Drop the completed square: rows $t u_x + v_Y$ (weight $λ$), $v_Y$ ($2μ$) and $u_Y + t v_x$ ($μ$), $a_1$ with $2μ u_x^2$.
-//    How much further does the coating stretch at $t = 0$ than at $t = 10^{-6}$?
-// 2. CR / P1 at 1/h = 8 and 16: how does $\dim G_h$ grow, and how many independent motions of the bounds are in it?
-// 3. Press P1 in columns at $t = 10^{-4}$, $10^{-5}$, $10^{-6}$ with that penalty. How do the corrections grow?
+// 1. Drop the completed square: rows $t u_x + v_Y$ (weight $λ$), $v_Y$ ($2μ$) and
+//    $u_Y + t v_x$ ($μ$), $a_1$ with $2μ u_x^2$. How much further does the coating stretch at $t = 0$ than at $t = 10^{-6}$?
+// 2. CR / P1 at 1/h = 8 and 16: how does $\dim G_h$ grow, and how many independent motions
+//    of the bounds are in it?
+// 3. Press P1 in columns at $t = 10^{-4}$, $10^{-5}$, $10^{-6}$ with that penalty. How do
+//    the corrections grow?
 // 4. On paper: why is there no $z$ for P1 in columns, if $w = (u(x), 0)$ has a kink?
 
 #include "answers.hpp"
@@ -229,9 +260,12 @@ int main(int argc, char** argv) {
        .most_cells = 32,   // a factor at t = 1e-6 on a finer mesh has no digits to spare
        .add =
            [&](CLI::App& line) {
-             line.add_option("--thickness", thickness, "t of the pictures, relative to the block; 0: the limit")
+             line.add_option("--thickness", thickness,
+                             "t of the pictures, relative to the block; 0: the limit")
                  ->check(CLI::Range(0.0, 1.0));
            },
        .exercises = exercises},
-      [&](const tutorial::Options& options, tutorial::Report& report) { press(options, thickness, report); });
+      [&](const tutorial::Options& options, tutorial::Report& report) {
+        press(options, thickness, report);
+      });
 }

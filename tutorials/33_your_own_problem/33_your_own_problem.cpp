@@ -5,50 +5,62 @@
 // Run: 33_your_own_problem --exercise 1
 // Run: 33_your_own_problem --exercise 2
 //
-// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for strings, [07](../07_kernel/07_kernel.cpp) for kernels, [10](../10_limits/10_limits.cpp) for the
-// class (1), [14](../14_estimates/14_estimates.cpp) for coercivity, [28](../28_mixed/28_mixed.cpp) for Theorem 4 with another $a_0$.
+// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for strings,
+// [07](../07_kernel/07_kernel.cpp) for kernels, [10](../10_limits/10_limits.cpp) for the
+// class (1), [14](../14_estimates/14_estimates.cpp) for coercivity,
+// [28](../28_mixed/28_mixed.cpp) for Theorem 4 with another $a_0$.
 // **Here ε is the parameter of the class itself** ($ε^2$ in (23)).
 //
-// **The picture.** The energy that two glued strings release, against the compliance ε of the glue. *One choice of
-// $B$ locks: as the glue hardens its strings stop moving. The other does not. One number, the dimension of the
-// kernel, says so before anything is solved.*
+// **The picture.** The energy that two glued strings release, against the compliance ε of
+// the glue. *One choice of $B$ locks: as the glue hardens its strings stop moving. The
+// other does not. One number, the dimension of the kernel, says so before anything is
+// solved.*
 //
-// **Predict.** Two strings, one above the other, have corners at different places: one has $n$ cells, the other
-// $n + 1$. (a) How many independent pairs of broken lines are equal everywhere and 0 at the ends? (b) The lower string
-// has $n$ cells. If $u - w$ need only be orthogonal to its $n - 1$ hat functions, how many independent pairs are left?
-// (c) Without glue, the upper string is pressed onto the lower one, and that one onto the floor. Which force is larger,
-// the one between the strings or that of the floor?
+// **Predict.** Two strings, one above the other, have corners at different places: one has
+// $n$ cells, the other $n + 1$. (a) How many independent pairs of broken lines are equal
+// everywhere and 0 at the ends? (b) The lower string has $n$ cells. If $u - w$ need only be
+// orthogonal to its $n - 1$ hat functions, how many independent pairs are left? (c) Without
+// glue, the upper string is pressed onto the lower one, and that one onto the floor. Which
+// force is larger, the one between the strings or that of the floor?
 //
 // ## Two strings and a glue
 //
-// Nothing here is known to the library. The upper string $u$ is loaded by $q = 32$ downwards. The lower one $w$ lies
-// over an obstacle at $-g = -1/2$. Both have tension 1; a glue bonds them. Test functions: $v$ for $u$, $z$ for $w$.
+// Nothing here is known to the library. The upper string $u$ is loaded by $q = 32$
+// downwards. The lower one $w$ lies over an obstacle at $-g = -1/2$. Both have tension 1; a
+// glue bonds them. Test functions: $v$ for $u$, $z$ for $w$.
 //
 // $$ a_1 = ∫ u' v' + ∫ w' z',   a_0 = ∫ (u - w)(v - z),   L = -q ∫ v,   K = \{ w ≥ -g \}. $$
 //
-// $u = w$ at every point leaves no pair: a broken line may bend at its own corners only, and the two share none. The
-// other way is to ask less. A *mortar* asks for mean values only, $∫ (u - w) φ_i = 0$ with the hat functions $φ_i$ of
-// the lower string. These are $n - 1$ conditions for $n + (n - 1)$ values. For each $u$ they fix the $n - 1$ values of
+// $u = w$ at every point leaves no pair: a broken line may bend at its own corners only,
+// and the two share none. The other way is to ask less. A *mortar* asks for mean values
+// only, $∫ (u - w) φ_i = 0$ with the hat functions $φ_i$ of the lower string. These are
+// $n - 1$ conditions for $n + (n - 1)$ values. For each $u$ they fix the $n - 1$ values of
 // $w$, which becomes a projection of $u$. So the $n$ values of $u$ stay free.
 //
 // ## A glue with four conditions
 //
-// The kernel tells of each method whether it must lock. It does not tell that the other one converges: functions may be
-// left free in the wrong place (chapter 07). The mortar changes $a_0$ itself, to $a_{0h}(v, v) = \sum h d_i^2$ with the
-// means $d_i = \frac{1}{h} ∫ (u - w) φ_i$. So [chapter 28](../28_mixed/28_mixed.cpp)'s theorem is the one to ask:
+// The kernel tells of each method whether it must lock. It does not tell that the other one
+// converges: functions may be left free in the wrong place (chapter 07). The mortar changes
+// $a_0$ itself, to $a_{0h}(v, v) = \sum h d_i^2$ with the means
+// $d_i = \frac{1}{h} ∫ (u - w) φ_i$. So [chapter 28](../28_mixed/28_mixed.cpp)'s theorem is
+// the one to ask:
 //
 // - (i) $a_1$ is coercive alone, since both strings are held at their ends;
-// - (ii) let $(u, u)$ with $u ≥ -g$ be given. Interpolate $u$ on the upper string, and let the lower one be its projection,
-// $∫ (I u - w_h) φ_i = 0$. $w_h$ tends to $u$ in $H^1$, and so uniformly: it is below $-g$ by some $δ_h → 0$ at most. Add
-// $δ_h$ times one fixed bump to both strings, and project again: $w_h ≥ -g$ and $a_{0h} = 0$;
-// - (iii), (iv) bounded pairs have a subsequence for which $u_h - w_h$ converges strongly in $L^2$ (compactness). Means over
+// - (ii) let $(u, u)$ with $u ≥ -g$ be given. Interpolate $u$ on the upper string, and let
+//   the lower one be its projection,
+// $∫ (I u - w_h) φ_i = 0$. $w_h$ tends to $u$ in $H^1$, and so uniformly: it is below $-g$
+// by some $δ_h → 0$ at most. Add $δ_h$ times one fixed bump to both strings, and project
+// again: $w_h ≥ -g$ and $a_{0h} = 0$;
+// - (iii), (iv) bounded pairs have a subsequence for which $u_h - w_h$ converges strongly
+//   in $L^2$ (compactness). Means over
 // a width of $2h$ then tend to the function itself, and $a_{0h}$ to $a_0$.
 //
-// So the mortar converges uniformly in ε, with the obstacle (*proved*). For a problem of your own these are the four
-// questions to answer. The kernel is the quick test before.
+// So the mortar converges uniformly in ε, with the obstacle (*proved*). For a problem of
+// your own these are the four questions to answer. The kernel is the quick test before.
 //
-// **The truth** at ε = 0 is one string of tension 2: it lies on the obstacle over $[c, 1 - c]$ with
-// $c = 2 (g/q)^{1/2}$, presses with $q (1 - 2c)$, and has the energy $q^2 c^3 / 3 - q g$.
+// **The truth** at ε = 0 is one string of tension 2: it lies on the obstacle over
+// $[c, 1 - c]$ with $c = 2 (g/q)^{1/2}$, presses with $q (1 - 2c)$, and has the energy
+// $q^2 c^3 / 3 - q g$.
 
 #include <cmath>
 
@@ -64,17 +76,21 @@ using namespace antilock;
 using tutorial::Strings, tutorial::sum_over_cells;
 
 constexpr double load = 32, gap = 0.5, distance = 0.25;
-const double free_part = 2 * std::sqrt(gap / load);  // c: contact on [c, 1 - c] where the glue is rigid
+const double free_part =
+    2 * std::sqrt(gap / load);  // c: contact on [c, 1 - c] where the glue is rigid
 enum class Glue { pointwise, mortar };
 
 // ### Mesh
-// `Strings` numbers the unknowns: those of the upper string ($n + 1$ cells; $n$ in exercise 1), then the lower.
+// `Strings` numbers the unknowns: those of the upper string ($n + 1$ cells; $n$ in exercise
+// 1), then the lower.
 //
 // ### Forms
-// $B$ and $M$: $a_0(u, v) = (B u)^T M (B v)$. `difference` is $u - w$ at a point, as a row over the unknowns.
+// $B$ and $M$: $a_0(u, v) = (B u)^T M (B v)$. `difference` is $u - w$ at a point, as a row
+// over the unknowns.
 void fill_glue(const Strings& s, Glue glue, VariationalInequality& problem) {
   const std::vector<tutorial::Place> points = tutorial::gauss_points(s);
-  const Eigen::Index rows = glue == Glue::pointwise ? static_cast<Eigen::Index>(points.size()) : s.cells - 1;
+  const Eigen::Index rows =
+      glue == Glue::pointwise ? static_cast<Eigen::Index>(points.size()) : s.cells - 1;
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(rows, s.size());
   problem.m = Eigen::VectorXd::Constant(rows, 1.0 / s.cells);
   for (Eigen::Index q = 0; const auto& [x, weight] : points) {
@@ -82,21 +98,24 @@ void fill_glue(const Strings& s, Glue glue, VariationalInequality& problem) {
     if (glue == Glue::pointwise)  // one row per point: a0 is the integral itself
       b.row(q) = difference, problem.m(q++) = weight;
     else  // one row per hat function of the lower string: (1/h) int (u - w) hat
-      for (int i = 1; i < s.cells; ++i) b.row(i - 1) += weight * tutorial::hat(s.cells, i, x) * s.cells * difference;
+      for (int i = 1; i < s.cells; ++i)
+        b.row(i - 1) += weight * tutorial::hat(s.cells, i, x) * s.cells * difference;
   }
   problem.b = b.sparseView();
 }
 
-// With $A_1$, load, what is held and what is bounded from below, that is all that the solver
-// sees. (`Bounds` also holds bounds from above, bounds on sums (below), and bounds that bear a given force
-// only ([friction](../30_friction/30_friction.cpp)). One more field holds the compliances of those
-// rows of $B$ that do not vary with ε.)
+// With $A_1$, load, what is held and what is bounded from below, that is all that the
+// solver sees. (`Bounds` also holds bounds from above, bounds on sums (below), and bounds
+// that bear a given force only ([friction](../30_friction/30_friction.cpp)). One more field
+// holds the compliances of those rows of $B$ that do not vary with ε.)
 VariationalInequality held_strings(const Strings& s) {
   VariationalInequality problem;
   problem.a1 = sum_over_cells(s, 1, 0);
   problem.load = Eigen::VectorXd::Zero(s.size());
-  for (int i = 1; i < s.upper_cells(); ++i) problem.load(s.upper(i)) = -load / s.upper_cells();
-  problem.dirichlet_dofs = {s.upper(0), s.upper(s.upper_cells()), s.lower(0), s.lower(s.cells)};
+  for (int i = 1; i < s.upper_cells(); ++i)
+    problem.load(s.upper(i)) = -load / s.upper_cells();
+  problem.dirichlet_dofs = {s.upper(0), s.upper(s.upper_cells()), s.lower(0),
+                            s.lower(s.cells)};
   problem.dirichlet_values = Eigen::VectorXd::Zero(4);
   return problem;
 }
@@ -105,27 +124,34 @@ VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) 
   VariationalInequality problem = held_strings(s);
   fill_glue(s, glue, problem);
   problem.compliance = epsilon;
-  problem.bounds = Bounds::lower_on(s.inside_lower(), Eigen::VectorXd::Constant(s.cells - 1, -gap));
+  problem.bounds =
+      Bounds::lower_on(s.inside_lower(), Eigen::VectorXd::Constant(s.cells - 1, -gap));
   return problem;
 }
 
-void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Table& rigid, tutorial::Report& report);
+void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Table& rigid,
+           tutorial::Report& report);
 void touch(const tutorial::Options& options, tutorial::Report& report);
 
 void own(const tutorial::Options& options, tutorial::Report& report) {
   const Strings strings{options.cells}, finer{2 * options.cells};
   Table released({"glue", "epsilon", "released", "corrections"});
   for (const Glue glue : {Glue::pointwise, Glue::mortar}) {
-    const std::string name = glue == Glue::pointwise ? "glue at every point" : "glue against hat functions";
+    const std::string name =
+        glue == Glue::pointwise ? "glue at every point" : "glue against hat functions";
     const VariationalInequality problem = make_problem(strings, glue, options.epsilon);
-    // The hypotheses: coercive, a kernel that grows from mesh to mesh, K and G meet. The energy as the glue hardens.
+    // The hypotheses: coercive, a kernel that grows from mesh to mesh, K and G meet. The
+    // energy as the glue hardens.
     const Hypotheses h = check_hypotheses(problem, sum_over_cells(strings, 1, 1));
     const int finer_kernel = kernel_dimension(make_problem(finer, glue, options.epsilon));
     const Table rows = tutorial::energies(problem);
     for (const Table& row : rows.rows())
-      released.add({name, row.number("epsilon"), -row.number("energy"), row.number("corrections")});
+      released.add(
+          {name, row.number("epsilon"), -row.number("energy"), row.number("corrections")});
     // ### Solve
-    // At the ε asked for, with its KKT report ([00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp)): how well the conditions hold.
+    // At the ε asked for, with its KKT report
+    // ([00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp)): how well the
+    // conditions hold.
     const Solution solution = active_set(problem);
     tutorial::print_glue(name, h, finer_kernel, rows, solution, load * (1 - 2 * free_part));
     judge(glue, h, finer_kernel, options.cells, rows.filter("epsilon", 0), report);
@@ -138,63 +164,77 @@ void own(const tutorial::Options& options, tutorial::Report& report) {
   const double apart = distance_to_kernel(impossible);
   const std::string refusal = tutorial::refusal(impossible);
   report.claim(apart > 1e-3 && !refusal.empty(),
-               "(observed) strings held 0.1 apart: K and G are {:.2g} from meeting; the solver says: {}", apart,
-               refusal);
+               "(observed) strings held 0.1 apart: K and G are {:.2g} from meeting; the "
+               "solver says: {}",
+               apart, refusal);
   touch(options, report);
 }
 
-void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Table& rigid, tutorial::Report& report) {
-  const double exact = load * load * std::pow(free_part, 3) / 3 - load * gap, n = cells, found = rigid.number("energy");
-  report.claim(h.coercive() && h.intersects_kernel(), "(proved) the hypotheses hold: (H1) and K meets G");
+void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Table& rigid,
+           tutorial::Report& report) {
+  const double exact = load * load * std::pow(free_part, 3) / 3 - load * gap, n = cells,
+               found = rigid.number("energy");
+  report.claim(h.coercive() && h.intersects_kernel(),
+               "(proved) the hypotheses hold: (H1) and K meets G");
   if (glue == Glue::pointwise)
-    return report.claim(h.kernel == 0 && finer_kernel == 0 && rigid.number("max |u|") < 1e-6,
-                        "(proved) no function is left free on any mesh: it locks, energy {:.1e} in place of {:.3f}",
-                        found, exact);
+    return report.claim(
+        h.kernel == 0 && finer_kernel == 0 && rigid.number("max |u|") < 1e-6,
+        "(proved) no function is left free on any mesh: it locks, energy {:.1e} in place "
+        "of {:.3f}",
+        found, exact);
   report.claim(h.kernel == cells && finer_kernel == 2 * cells,
-               "(proved) {} functions are left free, {} on the finer mesh", h.kernel, finer_kernel);
-  // P1 on one string of tension 2 misses int (u - u_h)'^2 of the energy, with u'' = q / 2 on its free parts, of length 2c.
+               "(proved) {} functions are left free, {} on the finer mesh", h.kernel,
+               finer_kernel);
+  // P1 on one string of tension 2 misses int (u - u_h)'^2 of the energy, with u'' = q / 2
+  // on its free parts, of length 2c.
   const double missed = std::pow(load / 2, 2) / (12 * n * n) * 2 * free_part;
-  report.claim_within(
-      (found - exact) / missed, 0.5, 1.5,
-      fmt::format("(observed) energy {:.4f} at epsilon = 0, truth {:.4f}: off, over what one P1 string misses", found,
-                  exact));
+  report.claim_within((found - exact) / missed, 0.5, 1.5,
+                      fmt::format("(observed) energy {:.4f} at epsilon = 0, truth {:.4f}: "
+                                  "off, over what one P1 string misses",
+                                  found, exact));
   report.claim(rigid.number("corrections") <= 5, "(observed) and {} corrections are enough",
                rigid.number("corrections"));
 }
 
 // ## Two strings that only touch
 //
-// A contact between two bodies bounds no unknown: it bounds a difference of unknowns. Take the glue away, and let the
-// lower string hang $d = 1/4$ below the upper one, and $d$ above the floor. The strings cannot pass through each other:
+// A contact between two bodies bounds no unknown: it bounds a difference of unknowns. Take
+// the glue away, and let the lower string hang $d = 1/4$ below the upper one, and $d$ above
+// the floor. The strings cannot pass through each other:
 //
 // $$ K = \{ w ≥ -d,   u - w ≥ -d \}. $$
 //
-// The corners of the strings do not match. Therefore each corner $x_i$ of the lower string gets one *constraint*, a row
-// $c$ over the unknowns with $c · (u, w) = u(x_i) - w(x_i)$. It contains two corners of the upper string. Engineers call
-// this *node to segment*. The bounds list the bounded unknowns first and the constraints after them, and the contact
+// The corners of the strings do not match. Therefore each corner $x_i$ of the lower string
+// gets one *constraint*, a row $c$ over the unknowns with $c · (u, w) = u(x_i) - w(x_i)$.
+// It contains two corners of the upper string. Engineers call this *node to segment*. The
+// bounds list the bounded unknowns first and the constraints after them, and the contact
 // forces $λ$ have the same order.
 VariationalInequality touching(const Strings& s) {
-  const int n = s.cells - 1;  // one bound at the floor and one between the strings per inner corner
+  const int n =
+      s.cells - 1;  // one bound at the floor and one between the strings per inner corner
   VariationalInequality problem = held_strings(s);
   problem.b = RowMatrix(0, s.size());  // nothing is stiff
   Eigen::MatrixXd rows(n, s.size());
   for (int i = 1; i < s.cells; ++i) rows.row(i - 1) = tutorial::difference(s, s.corner(i));
   problem.bounds =
-      Bounds(s.inside_lower(), BoundLimits(Eigen::VectorXd::Constant(2 * n, -distance)), RowMatrix(rows.sparseView()));
+      Bounds(s.inside_lower(), BoundLimits(Eigen::VectorXd::Constant(2 * n, -distance)),
+             RowMatrix(rows.sparseView()));
   return problem;
 }
 
-// **The truth.** Between the wall and $c_1$ the strings are apart: $u'' = q$ and $w'' = 0$. From $c_1$ to $c_2$ they
-// touch and move together, like one string of tension 2. From $c_2$ on the lower one lies on the floor. Heights and
-// slopes are the same on both sides of $c_1$ and of $c_2$. (A jump of the slope would be a force at a point. It would
-// part the slopes of the strings, and $u - w$ would be negative beside that point.) So $u - w + d = q (c_1 - x)^2 / 2$ left
-// of $c_1$. At the wall this is $d$:
+// **The truth.** Between the wall and $c_1$ the strings are apart: $u'' = q$ and $w'' = 0$.
+// From $c_1$ to $c_2$ they touch and move together, like one string of tension 2. From
+// $c_2$ on the lower one lies on the floor. Heights and slopes are the same on both sides
+// of $c_1$ and of $c_2$. (A jump of the slope would be a force at a point. It would part
+// the slopes of the strings, and $u - w$ would be negative beside that point.) So
+// $u - w + d = q (c_1 - x)^2 / 2$ left of $c_1$. At the wall this is $d$:
 //
 // $$ c_1 = (2d/q)^{1/2},   \frac{q}{4} s^2 + \frac{q}{2} c_1 s = d,   s = c_2 - c_1. $$
 //
-// The second equation is the height of the floor. The lower string falls by $q c_1 s / 2$ up to $c_1$, as its slope there
-// is $-q s / 2$, and by $q s^2 / 4$ from there to $c_2$. The floor carries $q (1 - 2 c_2)$. Between the strings there are
-// $q/2$ per length on both pieces of length $s$, and $q$ above the floor.
+// The second equation is the height of the floor. The lower string falls by $q c_1 s / 2$
+// up to $c_1$, as its slope there is $-q s / 2$, and by $q s^2 / 4$ from there to $c_2$.
+// The floor carries $q (1 - 2 c_2)$. Between the strings there are $q/2$ per length on both
+// pieces of length $s$, and $q$ above the floor.
 void touch(const tutorial::Options& options, tutorial::Report& report) {
   const double c1 = std::sqrt(2 * distance / load);
   const double s = std::sqrt(c1 * c1 + 4 * distance / load) - c1;
@@ -204,29 +244,37 @@ void touch(const tutorial::Options& options, tutorial::Report& report) {
     const Strings strings{cells};
     const VariationalInequality problem = touching(strings);
     const Solution solution = active_set(problem);
-    const Eigen::VectorXd floor = solution.lambda.head(cells - 1), pair = solution.lambda.tail(cells - 1);
-    rates.add({cells, 1.0 / cells, std::abs(floor.sum() - of_floor), std::abs(pair.sum() - between)});
+    const Eigen::VectorXd floor = solution.lambda.head(cells - 1),
+                          pair = solution.lambda.tail(cells - 1);
+    rates.add({cells, 1.0 / cells, std::abs(floor.sum() - of_floor),
+               std::abs(pair.sum() - between)});
     if (cells == options.cells)
-      tutorial::touching_table(strings, solution.u, pair, floor, distance).write(options.out / "touching.csv");
+      tutorial::touching_table(strings, solution.u, pair, floor, distance)
+          .write(options.out / "touching.csv");
   }
   rates.print("two strings that only touch: errors of the two contact forces");
   double worst = 0;
   for (const Table& row : rates.rows()) {
-    const double error = std::max(row.number("force of the floor"), row.number("force between the strings"));
+    const double error =
+        std::max(row.number("force of the floor"), row.number("force between the strings"));
     worst = std::max(worst, error / std::pow(row.number("h"), 2));
   }
   // 43 at most for 4 to 128 cells
-  report.claim(worst < 2 * load, "(observed) both contact forces are right to {:.2g} h^2, below 2 q h^2", worst);
+  report.claim(worst < 2 * load,
+               "(observed) both contact forces are right to {:.2g} h^2, below 2 q h^2",
+               worst);
 }
 
 // ## What came out
 //
-// (a) None but 0, on any mesh: the energy is 0 in place of -10.667. (b) $n$, and $2n$ on the finer mesh: the truth is
-// met, up to what P1 misses on one string of tension 2, $q^2 h^2 c/24$. Strings held 0.1 apart have no solution at
-// ε = 0: the solver refuses, and says why. (c) The force between the strings: the lower string hands most of it to the
-// floor, and hangs on its ends with the rest, $q s$. Both forces are right to order $h^2$. The pressure between the strings
-// is not: it wavers by a tenth around $q/2$ and $q$, since the corner of one string stands now in the middle of a cell of
-// the other and now at its end. This is the known price of node to segment. Exercise 2 removes it.
+// (a) None but 0, on any mesh: the energy is 0 in place of -10.667. (b) $n$, and $2n$ on
+// the finer mesh: the truth is met, up to what P1 misses on one string of tension 2,
+// $q^2 h^2 c/24$. Strings held 0.1 apart have no solution at ε = 0: the solver refuses, and
+// says why. (c) The force between the strings: the lower string hands most of it to the
+// floor, and hangs on its ends with the rest, $q s$. Both forces are right to order $h^2$.
+// The pressure between the strings is not: it wavers by a tenth around $q/2$ and $q$, since
+// the corner of one string stands now in the middle of a cell of the other and now at its
+// end. This is the known price of node to segment. Exercise 2 removes it.
 // :number: -10.667 = line "in place of {}"
 //
 // :figure: touching_strings
@@ -235,16 +283,20 @@ void touch(const tutorial::Options& options, tutorial::Report& report) {
 //
 // 1. Give both strings $n$ cells. Does the glue at every point still lock?
 // 2. Give both strings that only touch $n$ cells. Is the pressure between them smooth?
-// 3. A problem of your own: replace $A_1$, $B$, $M$, load and bounds; the checks need no truth.
+// 3. A problem of your own: replace $A_1$, $B$, $M$, load and bounds; the checks need no
+//    truth.
 
 #include "answers.hpp"
 
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "33_your_own_problem", "Your own problem in the class: two strings and a stiff glue",
-                       {.epsilon = 1e-10,
-                        .epsilon_is = "the class parameter of (1), the compliance of the glue; 0 is a rigid glue",
-                        .least_cells = 4,
-                        .most_cells = 128,
-                        .exercises = exercises},
-                       own);
+  return tutorial::run(
+      argc, argv, "33_your_own_problem",
+      "Your own problem in the class: two strings and a stiff glue",
+      {.epsilon = 1e-10,
+       .epsilon_is =
+           "the class parameter of (1), the compliance of the glue; 0 is a rigid glue",
+       .least_cells = 4,
+       .most_cells = 128,
+       .exercises = exercises},
+      own);
 }

@@ -20,9 +20,10 @@ inline void write_density(const std::filesystem::path& file, const TriangleMesh&
   write_vtu(file, mesh, corners);
 }
 
-/// Returns component k of the flux sigma, T x 3 values at the corners of the T triangles. In the
-/// layer component 1 is the stress p.
-inline Eigen::MatrixX3d component(const TriangleMesh& mesh, const EquilibratedFlux& flux, int k) {
+/// Returns component k of the flux sigma, T x 3 values at the corners of the T triangles.
+/// In the layer component 1 is the stress p.
+inline Eigen::MatrixX3d component(const TriangleMesh& mesh, const EquilibratedFlux& flux,
+                                  int k) {
   Eigen::MatrixX3d corners(mesh.triangle_count(), 3);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     corners.row(t).setConstant(flux.cell[t].s(k));

@@ -15,8 +15,8 @@ namespace antilock::tutorial {
 
 // The functions that chapters 26 and 30 share.
 
-/// A discretisation: triangles, an element per component, whether the jumps at edges are penalised,
-/// and whether it locks.
+/// A discretisation: triangles, an element per component, whether the jumps at edges are
+/// penalised, and whether it locks.
 struct Rubber {
   std::string name, file;
   TriangleMesh mesh;
@@ -27,10 +27,12 @@ struct Rubber {
 /// Returns four discretisations on n x n squares with free sides, n = `cells`.
 inline std::vector<Rubber> structured_rubbers(int cells) {
   const TriangleMesh right = with_free_sides(structured_mesh(cells, Domain{0}));
-  const TriangleMesh crossed = with_free_sides(structured_mesh(cells, Domain{0}, Diagonal::crossed));
+  const TriangleMesh crossed =
+      with_free_sides(structured_mesh(cells, Domain{0}, Diagonal::crossed));
   return {{"P1 right diagonals", "p1_right", right, p1(), p1(), false, true},
           {"P1 crossed triangles", "p1_crossed", crossed, p1(), p1(), false, false},
-          {"Crouzeix-Raviart with jumps", "cr", right, crouzeix_raviart(), crouzeix_raviart(), true, false},
+          {"Crouzeix-Raviart with jumps", "cr", right, crouzeix_raviart(),
+           crouzeix_raviart(), true, false},
           {"Kouhia-Stenberg", "ks", right, p1(), crouzeix_raviart(), false, false}};
 }
 
@@ -40,7 +42,8 @@ inline std::vector<Rubber> rubbers(int cells) {
   std::vector<Rubber> all;
   for (const Rubber& rubber : structured_rubbers(cells)) {
     all.push_back(rubber);
-    if (rubber.locks) all.push_back({"P1 unstructured", "p1_unstructured", any, p1(), p1(), false, true});
+    if (rubber.locks)
+      all.push_back({"P1 unstructured", "p1_unstructured", any, p1(), p1(), false, true});
   }
   return all;
 }
@@ -54,12 +57,15 @@ inline double patch_error(const Rubber& rubber, double epsilon) {
   scene.sliding = true;
   scene.jump_weight = rubber.jumps ? 1 : 0;
   const Eigen::VectorXd u = active_set(assemble(scene, {x, y})).u;
-  const Eigen::VectorXd in_x = u.head(x.size()) - 0.1 / (1 + 2 * epsilon) * x.dof_coordinates().col(0);
-  return std::max(in_x.cwiseAbs().maxCoeff(),
-                  (u.tail(y.size()) + 0.1 * y.dof_coordinates().col(1)).cwiseAbs().maxCoeff());
+  const Eigen::VectorXd in_x =
+      u.head(x.size()) - 0.1 / (1 + 2 * epsilon) * x.dof_coordinates().col(0);
+  return std::max(
+      in_x.cwiseAbs().maxCoeff(),
+      (u.tail(y.size()) + 0.1 * y.dof_coordinates().col(1)).cwiseAbs().maxCoeff());
 }
 
-/// Returns the dimension of the kernel of a1 on the free unknowns: the motions without energy.
+/// Returns the dimension of the kernel of a1 on the free unknowns: the motions without
+/// energy.
 inline int zero_modes(VariationalInequality problem) {
   problem.b = problem.a1;
   problem.m = Eigen::VectorXd::Ones(problem.size());
@@ -73,7 +79,9 @@ inline double bulge(const Space& space, const Eigen::VectorXd& u, double side) {
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
-      if (mesh.vertices(mesh.edges(e, 0), 0) != side || mesh.vertices(mesh.edges(e, 1), 0) != side) continue;
+      if (mesh.vertices(mesh.edges(e, 0), 0) != side ||
+          mesh.vertices(mesh.edges(e, 1), 0) != side)
+        continue;
       const Eigen::VectorXd at_midpoint =
           space.element().basis(0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(i)));
       const Eigen::VectorXi unknowns = space.cell_dofs().row(t);
@@ -82,14 +90,15 @@ inline double bulge(const Space& space, const Eigen::VectorXd& u, double side) {
   return side == 0 ? -mean : mean;
 }
 
-/// Returns by how many per cent a contact force is too large, or NaN where the exact force is not
-/// known. The reference is the force of Taylor-Hood elements on graded meshes
+/// Returns by how many per cent a contact force is too large, or NaN where the exact force
+/// is not known. The reference is the force of Taylor-Hood elements on graded meshes
 /// (freefem/26_elasticity.edp) at epsilon = 1, 1e-2, 1e-4 and <= 1e-8.
 inline double percent_too_large(double force, double epsilon) {
   static const std::map<double, double> reference{
       {1, 0.158792}, {1e-2, 0.255738}, {1e-4, 0.259131}, {1e-8, 0.259166}, {0, 0.259166}};
   const auto known = reference.find(epsilon < 1e-8 ? 0 : epsilon);
-  return known == reference.end() ? std::numeric_limits<double>::quiet_NaN() : 100 * (force / known->second - 1);
+  return known == reference.end() ? std::numeric_limits<double>::quiet_NaN()
+                                  : 100 * (force / known->second - 1);
 }
 
 }  // namespace antilock::tutorial

@@ -17,10 +17,12 @@ namespace antilock {
 namespace {
 
 constexpr double negligible = 1e-3;  // of the integral of f^2, on one triangle
-constexpr double seen_enough = 0.1;  // of what is sampled, on one triangle as on all of them together
+constexpr double seen_enough =
+    0.1;  // of what is sampled, on one triangle as on all of them together
 
 /// f^2 and f |f| at a point of triangle t.
-Eigen::Array2d signed_squares(const TriangleMesh& mesh, int t, const Eigen::Vector3d& lambda, const Field& load) {
+Eigen::Array2d signed_squares(const TriangleMesh& mesh, int t, const Eigen::Vector3d& lambda,
+                              const Field& load) {
   const Eigen::Vector2d x = point_in(mesh, t, lambda);
   const double f = load(x(0), x(1));
   return Eigen::Array2d(f * f, f * std::abs(f));
@@ -112,9 +114,11 @@ std::vector<int> sigma_edges(const TriangleMesh& body) {
 std::vector<bool> dorfler_mark(const Eigen::VectorXd& indicator, const Marking& marking) {
   std::vector<Eigen::Index> order(indicator.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return indicator(a) > indicator(b); });
+  std::sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return indicator(a) > indicator(b); });
   const double enough = marking.theta * indicator.sum();
-  const auto least = static_cast<std::size_t>(std::ceil(marking.min_fraction * static_cast<double>(order.size())));
+  const auto least =
+      static_cast<std::size_t>(std::ceil(marking.min_fraction * static_cast<double>(order.size())));
   const std::size_t max_marked =
       marking.max_marked > 0 ? static_cast<std::size_t>(marking.max_marked) : order.size() + 1;
   std::vector<bool> marks(indicator.size(), false);
@@ -124,7 +128,8 @@ std::vector<bool> dorfler_mark(const Eigen::VectorXd& indicator, const Marking& 
     marks[order[k]] = true;
     sum += indicator(order[k]);
   }
-  if (max_marked > order.size() && static_cast<double>(k) > marking.uniform_above * static_cast<double>(order.size()))
+  if (max_marked > order.size() &&
+      static_cast<double>(k) > marking.uniform_above * static_cast<double>(order.size()))
     marks.assign(order.size(), true);
   return marks;
 }
@@ -178,7 +183,8 @@ std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangl
     if (round == most_rounds || mesh.triangle_count() + 3 * marks > most_triangles) {
       const Eigen::Vector2d x = point_in(mesh, order.front(), Eigen::Vector3d::Constant(1.0 / 3));
       return fmt::format(
-          "the load varies between the points of the quadrature near ({:.4g}, {:.4g}), by {:.1e} of its square: the "
+          "the load varies between the points of the quadrature near ({:.4g}, {:.4g}), by {:.1e} "
+          "of its square: the "
           "certificate holds for the load as sampled",
           x(0), x(1), left / total);
     }

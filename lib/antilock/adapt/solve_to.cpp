@@ -31,14 +31,16 @@ Scene with_layer_to_solve(const Scene& scene) {
 
 RefinementStrategy growth_of(const Scene& scene) {
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
-  return stiff != nullptr && stiff->epsilon <= thin ? RefinementStrategy::extrude : RefinementStrategy::bisect;
+  return stiff != nullptr && stiff->epsilon <= thin ? RefinementStrategy::extrude
+                                                    : RefinementStrategy::bisect;
 }
 
 /// The answer of a conforming element; that of P1 in K between the vertices, too.
 Result conforming_answer(const Scene& scene, const Space& space, const ProgressHook& follow) {
   const Element& element = space.element();
   Result result{.space = space};
-  result.problem = element.degree() == 1 ? assemble_in_k(scene, result.space) : assemble(scene, result.space);
+  result.problem =
+      element.degree() == 1 ? assemble_in_k(scene, result.space) : assemble(scene, result.space);
   ActiveSetOptions options;
   options.corrections.progress = follow;
   result.solution = active_set(result.problem, options);
@@ -48,30 +50,35 @@ Result conforming_answer(const Scene& scene, const Space& space, const ProgressH
 /// The warning of a result that locks, if it would need more unknowns than the limit; else empty.
 /// The error's square is at least twice the energy that is lost, and lost over kept falls like h^2
 /// for P1 and h^4 for P2. `counted`: the unknowns that the limit is about.
-std::string locking_warning(const Scene& scene, const Result& result, const Certificate& certificate,
-                            const AccuracyGoal& accuracy, int counted) {
+std::string locking_warning(const Scene& scene, const Result& result,
+                            const Certificate& certificate, const AccuracyGoal& accuracy,
+                            int counted) {
   const auto report = report_locking(scene, result);
   if (!report || report->warning.empty()) return "";
-  const double enough = std::pow(accuracy.relative * (certificate.norm + certificate.displacement), 2) / 2;
+  const double enough =
+      std::pow(accuracy.relative * (certificate.norm + certificate.displacement), 2) / 2;
   // lost over kept, in this level and in the last one
   const double now = report->estimate / (1 - report->estimate);
   const double then = enough / report->reference;
-  const double growth = std::pow(now / then, 1.0 / accuracy.element->degree());  // of the unknowns, as h^-2
+  const double growth =
+      std::pow(now / then, 1.0 / accuracy.element->degree());  // of the unknowns, as h^-2
   return counted * growth > accuracy.most_unknowns ? report->warning : "";
 }
 
 void check_request(const AccuracyGoal& accuracy) {
   const int highest_degree = accuracy.element->conforming() ? 2 : 1;
   if (accuracy.element->degree() > highest_degree || accuracy.element->dofs_per_cell() > 0)
-    throw Error("accuracy: element " + accuracy.element->name() + " is not accepted; accepted: CR, P1, P2");
+    throw Error("accuracy: element " + accuracy.element->name() +
+                " is not accepted; accepted: CR, P1, P2");
   if (accuracy.element->conforming() && accuracy.of != Quantity::displacement)
-    throw Error("accuracy: the stress is that of CR; accepted with element " + accuracy.element->name() +
-                ": the displacement");
+    throw Error("accuracy: the stress is that of CR; accepted with element " +
+                accuracy.element->name() + ": the displacement");
   if (!(accuracy.relative > 0 && accuracy.relative < 1))
-    throw Error(fmt::format("accuracy: {} is out of range; accepted: above 0, below 1", accuracy.relative));
-  if (!(accuracy.most_unknowns >= 1))
     throw Error(
-        fmt::format("accuracy: most_unknowns = {} is out of range; accepted: 1 or more", accuracy.most_unknowns));
+        fmt::format("accuracy: {} is out of range; accepted: above 0, below 1", accuracy.relative));
+  if (!(accuracy.most_unknowns >= 1))
+    throw Error(fmt::format("accuracy: most_unknowns = {} is out of range; accepted: 1 or more",
+                            accuracy.most_unknowns));
 }
 
 /// Transfers a contact set to the next mesh, by x: the status that the nearest unknowns on both
@@ -81,7 +88,8 @@ std::optional<BoundStatuses> transfer_status(const Eigen::VectorXd& x, const Bou
   if (x.size() == 0) return std::nullopt;
   BoundStatuses start;
   for (const int i : space.contact_dofs()) {
-    const auto place = std::lower_bound(x.begin(), x.end(), space.dof_coordinates()(i, 0)) - x.begin();
+    const auto place =
+        std::lower_bound(x.begin(), x.end(), space.dof_coordinates()(i, 0)) - x.begin();
     const std::ptrdiff_t right = std::min(place, x.size() - 1);
     const std::ptrdiff_t left = std::max<std::ptrdiff_t>(place - 1, 0);
     start.push_back(common_status(status[right], status[left]));
@@ -91,7 +99,9 @@ std::optional<BoundStatuses> transfer_status(const Eigen::VectorXd& x, const Bou
 
 /// The bound relative to |v|_a, which falls like a power of N; a bound relative to what it leaves
 /// of |v|_a does not, where both are of one size.
-double relative_to_companion(double relative) { return std::isfinite(relative) ? relative / (1 + relative) : 1; }
+double relative_to_companion(double relative) {
+  return std::isfinite(relative) ? relative / (1 + relative) : 1;
+}
 
 /// Predicts the last level: N grows like relative_to_companion(relative)^(-1/rate), with rate 1/2
 /// for a mesh that is adapted, and more while it is not yet.
@@ -132,22 +142,24 @@ Marking marking(const std::vector<RefinementLevel>& history, int marks) {
 
 /// `per_unknown`: unknowns of Crouzeix-Raviart, which the limit counts, per one of the requested
 /// element.
-[[noreturn]] void give_up(const AccuracyGoal& accuracy, const std::vector<RefinementLevel>& history, double per_unknown,
-                          const std::string& why, bool converges = true) {
+[[noreturn]] void give_up(const AccuracyGoal& accuracy, const std::vector<RefinementLevel>& history,
+                          double per_unknown, const std::string& why, bool converges = true) {
   const RefinementLevel& last = history.back();
   const double unknowns = per_unknown * last.unknowns;
-  const double reachable = relative_to_companion(last.relative) * std::sqrt(unknowns / accuracy.most_unknowns);
+  const double reachable =
+      relative_to_companion(last.relative) * std::sqrt(unknowns / accuracy.most_unknowns);
   std::string in_reach;
   if (converges && reachable < 0.5)
-    in_reach = fmt::format("; within the limit about {:.2g} can be reached", reachable / (1 - reachable));
+    in_reach =
+        fmt::format("; within the limit about {:.2g} can be reached", reachable / (1 - reachable));
   const char* const of_element = accuracy.element->conforming() ? " of Crouzeix-Raviart" : "";
   const char* const plural = history.size() == 1 ? "" : "s";
-  throw NotConverged(
-      fmt::format("accuracy: {:.3g} is not reached within {:.0f} unknowns{}: {}; proved so far: {:.3g} with {} "
-                  "unknowns in {} level{}{}",
-                  accuracy.relative, accuracy.most_unknowns, of_element, why, last.relative, last.unknowns,
-                  history.size(), plural, in_reach),
-      last.relative, static_cast<int>(history.size()));
+  throw NotConverged(fmt::format("accuracy: {:.3g} is not reached within {:.0f} unknowns{}: {}; "
+                                 "proved so far: {:.3g} with {} "
+                                 "unknowns in {} level{}{}",
+                                 accuracy.relative, accuracy.most_unknowns, of_element, why,
+                                 last.relative, last.unknowns, history.size(), plural, in_reach),
+                     last.relative, static_cast<int>(history.size()));
 }
 
 /// The conditions on the outer edges of the layer. Each is the tag of an edge with a number for its
@@ -169,7 +181,8 @@ std::set<std::pair<double, EdgeTag>> layer_edge_tags(const TriangleMesh& mesh) {
   return tags;
 }
 
-RefinementStrategy strategy_for(const Scene& scene, const TriangleMesh& first, const AccuracyGoal& accuracy) {
+RefinementStrategy strategy_for(const Scene& scene, const TriangleMesh& first,
+                                const AccuracyGoal& accuracy) {
   if (accuracy.strategy) return *accuracy.strategy;
   const bool locks_below = accuracy.element->conforming() && !layer_components(first).is_aligned;
   return locks_below ? RefinementStrategy::bisect : growth_of(scene);
@@ -180,7 +193,8 @@ void require_same_layer(const TriangleMesh& first, const TriangleMesh& body, dou
   const auto tags = layer_edge_tags(first);
   if (!tags.empty() && tags != layer_edge_tags(extruded(body, epsilon)))
     throw Error(
-        "accuracy: the layer of the mesh is not that of columns below its body; accepted: sides that are upright, and "
+        "accuracy: the layer of the mesh is not that of columns below its body; accepted: sides "
+        "that are upright, and "
         "held where the body is beside them, and contact all along the lower side");
 }
 
@@ -220,11 +234,13 @@ bool layer_may_lock(const Scene& scene) {
 
 /// Solves with Crouzeix-Raviart until the algebraic residual is at most a tenth of the constitutive
 /// error, as far as double precision goes, and certifies.
-void certify_crouzeix_raviart(Level& level, const Scene& scene, const AccuracyGoal& accuracy, PenalisedCholesky& factor,
-                              ActiveSetOptions options, const ProgressHook& step) {
+void certify_crouzeix_raviart(Level& level, const Scene& scene, const AccuracyGoal& accuracy,
+                              PenalisedCholesky& factor, ActiveSetOptions options,
+                              const ProgressHook& step) {
   const double finest = CorrectionOptions{}.tolerance;
   Result& result = level.result;
-  for (double tolerance = std::min(1e-2 * accuracy.relative, accuracy.tolerance);; tolerance *= 1e-2) {
+  for (double tolerance = std::min(1e-2 * accuracy.relative, accuracy.tolerance);;
+       tolerance *= 1e-2) {
     options.corrections.tolerance = std::max(tolerance, finest);
     result.solution = active_set(result.problem, factor, options);
     options.start = result.solution.status;
@@ -240,8 +256,8 @@ void certify_crouzeix_raviart(Level& level, const Scene& scene, const AccuracyGo
 
 /// Replaces the solution of Crouzeix-Raviart, whose flux is used, by that of the requested element.
 /// P1 is certified itself, and P2 by its distance to P1.
-void certify_conforming(Level& level, const Scene& scene, const Element& element, PenalisedCholesky& factor,
-                        const ProgressHook& step) {
+void certify_conforming(Level& level, const Scene& scene, const Element& element,
+                        PenalisedCholesky& factor, const ProgressHook& step) {
   const Space& space = level.result.space;
   Result own = conforming_answer(scene, Space(space, p1()), step);
   level.v = p1_companion(assemble_fixed_rows(own).solution);
@@ -255,8 +271,8 @@ void certify_conforming(Level& level, const Scene& scene, const Element& element
 
 /// Solves on a mesh, and certifies. `contact`: the contact set of the last level, replaced by that
 /// of this one.
-Level solve_level(const Scene& scene, const Space& space, const AccuracyGoal& accuracy, ContactSet& contact,
-                  const ProgressHook& step) {
+Level solve_level(const Scene& scene, const Space& space, const AccuracyGoal& accuracy,
+                  ContactSet& contact, const ProgressHook& step) {
   Level level{.result = {space, assemble(scene, space)}, .v = {}};
   step({});
   PenalisedCholesky factor(level.result.problem);
@@ -267,7 +283,8 @@ Level solve_level(const Scene& scene, const Space& space, const AccuracyGoal& ac
   certify_crouzeix_raviart(level, scene, accuracy, factor, options, step);
   contact.x = space.dof_coordinates().col(0)(space.contact_dofs());
   contact.status = level.result.solution.status;
-  if (accuracy.element->conforming()) certify_conforming(level, scene, *accuracy.element, factor, step);
+  if (accuracy.element->conforming())
+    certify_conforming(level, scene, *accuracy.element, factor, step);
   level.result.solution.warning.clear();  // the certificate counts what the corrections left
   return level;
 }
@@ -285,23 +302,25 @@ Solution companion_solution(ConformingCompanion& v, const TriangleMesh& mesh) {
 }
 
 /// Throws where the unknowns of the next mesh are beyond the limit.
-void require_room(const AccuracyGoal& accuracy, const std::vector<RefinementLevel>& history, double per_unknown,
-                  int unknowns) {
+void require_room(const AccuracyGoal& accuracy, const std::vector<RefinementLevel>& history,
+                  double per_unknown, int unknowns) {
   if (unknowns <= accuracy.most_unknowns) return;
   if (history.empty())
-    throw Error(
-        fmt::format("accuracy: most_unknowns = {:.0f} cannot hold the first mesh, which has {} unknowns; "
-                    "accepted: at least as many, or a coarser first mesh",
-                    accuracy.most_unknowns, unknowns));
+    throw Error(fmt::format(
+        "accuracy: most_unknowns = {:.0f} cannot hold the first mesh, which has {} unknowns; "
+        "accepted: at least as many, or a coarser first mesh",
+        accuracy.most_unknowns, unknowns));
   give_up(accuracy, history, per_unknown, fmt::format("the next mesh has {}", unknowns));
 }
 
 /// Throws where a later level will be beyond the limit: the method locks, or the prediction says
 /// so.
 void require_goal_in_reach(const Scene& scene, const Level& level, const AccuracyGoal& accuracy,
-                           const std::vector<RefinementLevel>& history, double per_unknown, int unknowns) {
+                           const std::vector<RefinementLevel>& history, double per_unknown,
+                           int unknowns) {
   if (accuracy.element->conforming()) {
-    const std::string why = locking_warning(scene, level.result, level.certificate, accuracy, unknowns);
+    const std::string why =
+        locking_warning(scene, level.result, level.certificate, accuracy, unknowns);
     if (!why.empty()) give_up(accuracy, history, per_unknown, why, false);
   }
   const double needed = per_unknown * history.back().predicted_unknowns;
@@ -311,11 +330,14 @@ void require_goal_in_reach(const Scene& scene, const Level& level, const Accurac
 
 }  // namespace
 
-CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const AccuracyGoal& accuracy,
+CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first,
+                           const AccuracyGoal& accuracy,
                            const std::function<void(const RefinementLevel&)>& progress) {
   check_request(accuracy);
   if (first.curved())
-    throw Error("accuracy: has no flux for a layer along the normals of a curved edge; accepted: a layer below y = 0");
+    throw Error(
+        "accuracy: has no flux for a layer along the normals of a curved edge; accepted: a layer "
+        "below y = 0");
   Stopwatch watch;
   double seconds = 0;
   const Scene scene = with_layer_to_solve(asked);
@@ -331,7 +353,8 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   const ProgressHook step = [&](const Progress&) {
     const int level = static_cast<int>(history.size()) + 1;
     const double reached = history.empty() ? 1 : history.back().relative;
-    notify_or_throw(accuracy.follow, {"refinement, level", level, reached, accuracy.relative}, "accuracy");
+    notify_or_throw(accuracy.follow, {"refinement, level", level, reached, accuracy.relative},
+                    "accuracy");
     return true;
   };
   while (true) {
@@ -352,7 +375,8 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       result.warning = warning;
       add_locking_report(result, report_locking(scene, result));
       Solution companion = companion_solution(level.v, now.mesh);
-      return {std::move(result), std::move(companion), std::move(level.certificate), std::move(history)};
+      return {std::move(result), std::move(companion), std::move(level.certificate),
+              std::move(history)};
     }
     require_goal_in_reach(scene, level, accuracy, history, per_unknown, space.free_count());
     step({});

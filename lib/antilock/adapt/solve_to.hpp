@@ -71,7 +71,8 @@ struct CertifiedSolution {
 /// first mesh, and a scene and a mesh that do not fit. Throws NotConverged, with the accuracy that
 /// can be reached, where the goal is beyond the limit, and Interrupted where accuracy.follow
 /// returns false.
-CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first, const AccuracyGoal& accuracy,
+CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first,
+                           const AccuracyGoal& accuracy,
                            const std::function<void(const RefinementLevel&)>& progress = {});
 
 }  // namespace antilock

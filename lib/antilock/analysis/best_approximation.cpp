@@ -24,21 +24,23 @@ void minimise_norm(VariationalInequality& problem, const SparseMatrix& norm, boo
 
 }  // namespace
 
-BestApproximation best_approximation(const Space& space, VariationalInequality problem, const Reference& u,
-                                     AdmissibleSet within, const Eigen::VectorXd& functional) {
+BestApproximation best_approximation(const Space& space, VariationalInequality problem,
+                                     const Reference& u, AdmissibleSet within,
+                                     const Eigen::VectorXd& functional) {
   problem = assemble_fixed_rows(std::move(problem));
   minimise_norm(problem, h1_gram_matrix(space), within == AdmissibleSet::k_0h);
   problem.load = h1_products(space, u);  // |u - v|_h^2 / 2 but for a constant
   if (functional.size() > 0) problem.load -= 0.5 * functional;
   Solution solution = active_set(problem);
-  solution.p.resize(0);  // of the norm's problem: no stress, and of a projected form not one per triangle
+  solution.p.resize(
+      0);  // of the norm's problem: no stress, and of a projected form not one per triangle
   const double distance = measure_errors(space, solution, 1, u).h1;
   const double added = functional.size() > 0 ? functional.dot(solution.u) : 0;
   return {solution.u, distance, distance * distance + added};
 }
 
-double dual_norm(VariationalInequality problem, const SparseMatrix& norm, const Eigen::VectorXd& functional,
-                 bool kernel) {
+double dual_norm(VariationalInequality problem, const SparseMatrix& norm,
+                 const Eigen::VectorXd& functional, bool kernel) {
   problem = assemble_fixed_rows(std::move(problem));
   minimise_norm(problem, norm, kernel);
   problem.bounds = {};

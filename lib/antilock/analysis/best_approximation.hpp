@@ -21,14 +21,15 @@ struct BestApproximation {
 /// Definition 1 of [SR04]. With the residual of u as the functional, v attains the first infimum of
 /// (13). K_h and B are those of `problem`, whose forms and load are not used. Throws Error or
 /// NotConverged as active_set does. ([SR04] is cited in problem/variational_inequality.hpp.)
-BestApproximation best_approximation(const Space& space, VariationalInequality problem, const Reference& u,
-                                     AdmissibleSet within, const Eigen::VectorXd& functional = {});
+BestApproximation best_approximation(const Space& space, VariationalInequality problem,
+                                     const Reference& u, AdmissibleSet within,
+                                     const Eigen::VectorXd& functional = {});
 
 /// Returns the dual norm of the functional (N): the largest functional . w over all w with w' norm
 /// w = 1 that are 0 on the prescribed unknowns, and with B w = 0 where `kernel` is true. `norm` is
 /// an N x N Gram matrix. The norm is computed from Riesz's representative of the functional, the
 /// solution of a linear problem.
-double dual_norm(VariationalInequality problem, const SparseMatrix& norm, const Eigen::VectorXd& functional,
-                 bool kernel = false);
+double dual_norm(VariationalInequality problem, const SparseMatrix& norm,
+                 const Eigen::VectorXd& functional, bool kernel = false);
 
 }  // namespace antilock

@@ -12,7 +12,8 @@ namespace antilock {
 /// successive rows of B, for example on the triangles of a refined mesh with one ancestor. G is
 /// dense and has R / merged rows, R the number of rows of B. Throws Error for a malformed problem,
 /// a norm that is not positive definite, and sizes that do not fit.
-Eigen::MatrixXd multiplier_gram(const VariationalInequality& problem, const SparseMatrix& norm, int merged = 1);
+Eigen::MatrixXd multiplier_gram(const VariationalInequality& problem, const SparseMatrix& norm,
+                                int merged = 1);
 
 /// Returns the discrete inf-sup constant of B, the largest beta >= 0 with
 ///

@@ -23,7 +23,8 @@ SparseMatrix free_prolongation(const VariationalInequality& problem) {
 
 namespace {
 
-/// Orthogonal triangular factors of b, in which what is dependent to `threshold(b)` counts as dependent.
+/// Orthogonal triangular factors of b, in which what is dependent to `threshold(b)` counts as
+/// dependent.
 using Factors = Eigen::SPQR<SparseMatrix>;
 
 double threshold(const SparseMatrix& b) {
@@ -36,7 +37,8 @@ void factorise(Factors& qr, const SparseMatrix& b, double threshold) {
   qr.setPivotThreshold(threshold);
   qr.compute(b);
   if (qr.info() != Eigen::Success)
-    throw NotConverged("kernel: the factorisation of B failed: out of memory; accepted: fewer unknowns", 1, 0);
+    throw NotConverged(
+        "kernel: the factorisation of B failed: out of memory; accepted: fewer unknowns", 1, 0);
 }
 
 }  // namespace
@@ -61,22 +63,28 @@ VariationalInequality stiff_part(VariationalInequality problem) {
   problem.dirichlet_dofs.clear();
   for (int i = 0; i < problem.size(); ++i)
     if (held[i]) problem.dirichlet_dofs.push_back(i);
-  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
+  problem.dirichlet_values =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   std::set<int> bounded(problem.bounds.unknowns.begin(), problem.bounds.unknowns.end());
-  for (Eigen::Index row = 0; row < problem.bounds.constraints.rows(); ++row)  // what they combine counts as bounded
+  for (Eigen::Index row = 0; row < problem.bounds.constraints.rows();
+       ++row)  // what they combine counts as bounded
     for (RowMatrix::InnerIterator entry(problem.bounds.constraints, row); entry; ++entry)
       bounded.insert(static_cast<int>(entry.col()));
   std::erase_if(bounded, [&](int i) { return held[i] != 0; });
   // the values of the bounds have no part in the kernel of B
-  problem.bounds = Bounds::lower_on({bounded.begin(), bounded.end()},
-                                    Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bounded.size())));
+  problem.bounds =
+      Bounds::lower_on({bounded.begin(), bounded.end()},
+                       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bounded.size())));
   return problem;
 }
 
-int layer_kernel_dimension(const VariationalInequality& problem) { return kernel_dimension(stiff_part(problem)); }
+int layer_kernel_dimension(const VariationalInequality& problem) {
+  return kernel_dimension(stiff_part(problem));
+}
 
 int trace_dimension(const VariationalInequality& stiff) {
-  const VariationalInequality held = equality_constrained(stiff, std::vector<bool>(stiff.bounds.unknowns.size(), true));
+  const VariationalInequality held =
+      equality_constrained(stiff, std::vector<bool>(stiff.bounds.unknowns.size(), true));
   return kernel_dimension(stiff) - (held.free_count() > 0 ? kernel_dimension(held) : 0);
 }
 
@@ -101,16 +109,18 @@ double coercivity(const VariationalInequality& with_fixed_rows, const SparseMatr
   check(with_fixed_rows);
   const VariationalInequality problem = assemble_fixed_rows(with_fixed_rows);
   if (norm.rows() != problem.size() || norm.cols() != problem.size())
-    throw Error(fmt::format("coercivity: the norm is {} x {}; accepted {} x {}", norm.rows(), norm.cols(),
-                            problem.size(), problem.size()));
+    throw Error(fmt::format("coercivity: the norm is {} x {}; accepted {} x {}", norm.rows(),
+                            norm.cols(), problem.size(), problem.size()));
   if (problem.free_count() > most)
-    throw Error(fmt::format("coercivity: {} free unknowns; accepted at most {}", problem.free_count(), most));
+    throw Error(fmt::format("coercivity: {} free unknowns; accepted at most {}",
+                            problem.free_count(), most));
   const SparseMatrix places = free_prolongation(problem);
   const SparseMatrix b = problem.b * places;
   const Eigen::MatrixXd form = SparseMatrix(places.transpose() * problem.a1 * places).toDense() +
                                SparseMatrix(b.transpose() * problem.m.asDiagonal() * b).toDense();
   const Eigen::MatrixXd gram = SparseMatrix(places.transpose() * norm * places).toDense();
-  if (!Cholesky(gram).positive_definite()) throw Error("coercivity: the norm is not positive definite");
+  if (!Cholesky(gram).positive_definite())
+    throw Error("coercivity: the norm is not positive definite");
   return generalised_eigenvalues(form, gram).minCoeff();
 }
 

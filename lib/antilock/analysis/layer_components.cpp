@@ -35,7 +35,8 @@ LayerComponents layer_components(const TriangleMesh& mesh) {
   for (int t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.region[t] == Region::layer && leader[t] == t) ++components.count;
   if (components.count != edges) return components;
-  Eigen::ArrayXd from = Eigen::ArrayXd::Constant(mesh.triangle_count(), std::numeric_limits<double>::infinity()),
+  Eigen::ArrayXd from = Eigen::ArrayXd::Constant(mesh.triangle_count(),
+                                                 std::numeric_limits<double>::infinity()),
                  to = -from;
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3 && mesh.region[t] == Region::layer; ++i) {

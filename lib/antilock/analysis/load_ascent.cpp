@@ -25,8 +25,8 @@ SineLoad load_of_modes(const Eigen::VectorXd& c) {
   return load;
 }
 
-double ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
-              int steps) {
+double ascend(const std::function<double(const Eigen::VectorXd&)>& error,
+              const std::vector<Eigen::VectorXd>& starts, int steps) {
   double best = 0;
   for (const Eigen::VectorXd& start : starts) {
     Eigen::VectorXd at = start.normalized();

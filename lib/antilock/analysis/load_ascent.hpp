@@ -14,7 +14,7 @@ SineLoad load_of_modes(const Eigen::VectorXd& c);
 /// Returns the largest value of `error` on the unit sphere that projected gradient ascent finds
 /// from the starts. It is only a lower bound of the supremum. The gradient is computed by
 /// differences, and the step is doubled after a success and halved after a failure.
-double ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
-              int steps = 6);
+double ascend(const std::function<double(const Eigen::VectorXd&)>& error,
+              const std::vector<Eigen::VectorXd>& starts, int steps = 6);
 
 }  // namespace antilock

@@ -31,9 +31,10 @@ double bending_length(const TriangleMesh& mesh) {
 
 namespace {
 
-/// What a force of 1, spread over the bounds, moves them on average, without bounds and loads. Empty: they are held by
-/// nothing else, or the solve does not get there.
-std::optional<double> flexibility(VariationalInequality problem, const std::vector<int>& bounds, double compliance) {
+/// What a force of 1, spread over the bounds, moves them on average, without bounds and loads.
+/// Empty: they are held by nothing else, or the solve does not get there.
+std::optional<double> flexibility(VariationalInequality problem, const std::vector<int>& bounds,
+                                  double compliance) {
   problem.load.setZero();
   for (const int i : bounds) problem.load(i) = 1.0 / static_cast<double>(bounds.size());
   problem.bounds = {};
@@ -49,10 +50,11 @@ std::optional<double> flexibility(VariationalInequality problem, const std::vect
 }  // namespace
 
 std::string LockingDiagnosis::text() const {
-  const std::string counts =
-      fmt::format("motions {}without strain: {} of {}, then {} of {}",
-                  bounded ? "of the bounds " : "of the stiff part ", coarse, coarse_bounds, fine, fine_bounds);
-  const std::string range = compliance > 0 ? fmt::format(" (from a compliance of about {:.0e} down)", compliance) : "";
+  const std::string counts = fmt::format("motions {}without strain: {} of {}, then {} of {}",
+                                         bounded ? "of the bounds " : "of the stiff part ", coarse,
+                                         coarse_bounds, fine, fine_bounds);
+  const std::string range =
+      compliance > 0 ? fmt::format(" (from a compliance of about {:.0e} down)", compliance) : "";
   switch (verdict()) {
     case Verdict::locks_completely:
       return counts + ": none, it locks completely" + range;
@@ -75,14 +77,18 @@ Verdict LockingDiagnosis::verdict() const {
   if (fine == 0) return Verdict::locks_completely;
   if (fine <= coarse) return Verdict::locks;
   const int more_dead = (fine_bounds - fine) - (coarse_bounds - coarse);
-  if (bounded && more_dead > significance * (fine_bounds - coarse_bounds)) return Verdict::locks_in_part;
+  if (bounded && more_dead > significance * (fine_bounds - coarse_bounds))
+    return Verdict::locks_in_part;
   return compliance > 0 ? Verdict::locks : Verdict::not_detected;
 }
 
-LockingDiagnosis diagnose_locking(const VariationalInequality& on_coarse, const VariationalInequality& on_fine) {
-  const VariationalInequality coarse = assemble_fixed_rows(on_coarse), fine = assemble_fixed_rows(on_fine);
+LockingDiagnosis diagnose_locking(const VariationalInequality& on_coarse,
+                                  const VariationalInequality& on_fine) {
+  const VariationalInequality coarse = assemble_fixed_rows(on_coarse),
+                              fine = assemble_fixed_rows(on_fine);
   for (const auto* problem : {&coarse, &fine})
-    if (problem->b.rows() == 0) throw Error("diagnose_locking: B has no rows; accepted: a problem with a stiff form");
+    if (problem->b.rows() == 0)
+      throw Error("diagnose_locking: B has no rows; accepted: a problem with a stiff form");
   VariationalInequality first = stiff_part(coarse), second = stiff_part(fine);
   LockingDiagnosis found;
   found.bounded = !first.bounds.unknowns.empty() && !second.bounds.unknowns.empty();
@@ -90,29 +96,35 @@ LockingDiagnosis diagnose_locking(const VariationalInequality& on_coarse, const 
     for (VariationalInequality* stiff : {&first, &second}) {
       std::vector<int> all;
       for (int i = 0; i < stiff->size(); ++i)
-        if (!std::binary_search(stiff->dirichlet_dofs.begin(), stiff->dirichlet_dofs.end(), i)) all.push_back(i);
-      stiff->bounds = Bounds::lower_on(all, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all.size())));
+        if (!std::binary_search(stiff->dirichlet_dofs.begin(), stiff->dirichlet_dofs.end(), i))
+          all.push_back(i);
+      stiff->bounds =
+          Bounds::lower_on(all, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all.size())));
     }
   found.coarse_bounds = static_cast<int>(first.bounds.unknowns.size());
   found.fine_bounds = static_cast<int>(second.bounds.unknowns.size());
   if (found.coarse_bounds == 0 || found.fine_bounds <= found.coarse_bounds)
-    throw Error(fmt::format("diagnose_locking: {} {}, then {}; accepted: more on the second mesh", found.coarse_bounds,
-                            found.bounded ? "bounds on the stiff part" : "stiff unknowns", found.fine_bounds));
+    throw Error(fmt::format(
+        "diagnose_locking: {} {}, then {}; accepted: more on the second mesh", found.coarse_bounds,
+        found.bounded ? "bounds on the stiff part" : "stiff unknowns", found.fine_bounds));
   found.coarse = trace_dimension(first);
   found.fine = trace_dimension(second);
   const auto ratio = [&](double compliance) -> std::optional<double> {
     const auto on_coarse = flexibility(coarse, first.bounds.unknowns, compliance);
-    const auto on_fine = on_coarse ? flexibility(fine, second.bounds.unknowns, compliance) : std::nullopt;
+    const auto on_fine =
+        on_coarse ? flexibility(fine, second.bounds.unknowns, compliance) : std::nullopt;
     if (!on_fine || !(*on_coarse > 0) || !(*on_fine > 0)) return {};
     return *on_fine / *on_coarse;
   };
-  // No unit of the forms is better than another: in that in which both are as stiff, rounded to a decade.
+  // No unit of the forms is better than another: in that in which both are as stiff, rounded to a
+  // decade.
   const double unit = std::pow(10, std::round(std::log10(stiffness_ratio(fine).value())));
   const std::optional<double> soft = ratio(unit);
   for (int decade = 1; soft && decade <= 6 && found.compliance == 0; ++decade) {
     const double compliance = unit * std::pow(10, -decade);
     found.refinement_softening = ratio(compliance).value_or(0) / *soft - 1;
-    if (found.refinement_softening > std::max(significance, std::abs(*soft - 1))) found.compliance = compliance;
+    if (found.refinement_softening > std::max(significance, std::abs(*soft - 1)))
+      found.compliance = compliance;
   }
   return found;
 }

@@ -71,6 +71,7 @@ struct LockingDiagnosis {
 
 /// Diagnoses one method by its problems on a mesh and on a finer one. Throws Error where a problem
 /// is malformed or B has no rows, and where `fine` does not have more bounds than `coarse`.
-LockingDiagnosis diagnose_locking(const VariationalInequality& coarse, const VariationalInequality& fine);
+LockingDiagnosis diagnose_locking(const VariationalInequality& coarse,
+                                  const VariationalInequality& fine);
 
 }  // namespace antilock

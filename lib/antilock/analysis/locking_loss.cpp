@@ -85,10 +85,12 @@ void require_constant_sides(const Comparison& c) {
   const double tolerance = 1e-9 * c.on_sigma.cwiseAbs().maxCoeff();
   for (std::size_t k = 0; k < c.problem.dirichlet_dofs.size(); ++k) {
     const int dof = c.problem.dirichlet_dofs[k];
-    const double on_sigma = piecewise_linear(c.sigma.x, c.on_sigma, c.space.dof_coordinates()(dof, 0));
+    const double on_sigma =
+        piecewise_linear(c.sigma.x, c.on_sigma, c.space.dof_coordinates()(dof, 0));
     const double more = c.problem.dirichlet_values(static_cast<Eigen::Index>(k)) - on_sigma;
     if (!c.in_body[dof] && std::abs(more) > tolerance)
-      throw Error("lost energy: accepted: a layer whose sides have the value of Sigma's end above them");
+      throw Error(
+          "lost energy: accepted: a layer whose sides have the value of Sigma's end above them");
   }
 }
 
@@ -109,18 +111,19 @@ Comparison comparison_for(const Scene& scene, const Result& result) {
   const bool has_layer = epsilon && scene.layer_depth() > 0;
   if (!has_layer || !space.element().conforming() || space.mesh().curved())
     throw Error("lost energy: accepted: P1 to P6 on a mesh with a layer below y = 0");
-  Comparison c{.scene = scene,
-               .space = space,
-               .problem = result.problem,
-               .solution = result.solution,
-               .stiff = std::get_if<StiffLayer>(&scene.layer()),
-               .epsilon = *epsilon,
-               .s = 1,
-               .sigma = interface_line(space),
-               .on_sigma = {},
-               .in_body = dofs_in_body(space),
-               .held = {},
-               .ulp = std::numeric_limits<double>::epsilon() * result.solution.u.cwiseAbs().maxCoeff()};
+  Comparison c{
+      .scene = scene,
+      .space = space,
+      .problem = result.problem,
+      .solution = result.solution,
+      .stiff = std::get_if<StiffLayer>(&scene.layer()),
+      .epsilon = *epsilon,
+      .s = 1,
+      .sigma = interface_line(space),
+      .on_sigma = {},
+      .in_body = dofs_in_body(space),
+      .held = {},
+      .ulp = std::numeric_limits<double>::epsilon() * result.solution.u.cwiseAbs().maxCoeff()};
   if (c.stiff != nullptr) c.s = c.stiff->s;
   c.on_sigma = c.solution.u(c.sigma.dof);
   c.held = held_places(c.sigma, c.problem);
@@ -162,14 +165,16 @@ Remainders remainders(const Comparison& c, const Eigen::VectorXd& v0) {
   if (c.stiff != nullptr) stiffness = Eigen::Vector2d(c.s, 0);  // (d_y u)^2 is in B
   const SparseMatrix layer_form = layer_form_at(c.sigma, c.space, stiffness);
   Eigen::VectorXd layer_load = Eigen::VectorXd::Zero(c.space.size());
-  if (c.stiff != nullptr && c.stiff->load) layer_load = load_vector(c.space, c.stiff->load, Region::layer);
+  if (c.stiff != nullptr && c.stiff->load)
+    layer_load = load_vector(c.space, c.stiff->load, Region::layer);
 
   const Eigen::VectorXd w = c.solution.u - v0;
   const Eigen::VectorXd middle = v0 + w / 2;
   Remainders left;
   left.body_form = problem.a1 - layer_form;
   left.body_force = problem.load - layer_load - left.body_form * c.solution.u;
-  left.layer_energy = problem.compliance * c.solution.p.cwiseAbs2().dot(problem.m) / 2 - w.dot(layer_load);
+  left.layer_energy =
+      problem.compliance * c.solution.p.cwiseAbs2().dot(problem.m) / 2 - w.dot(layer_load);
   for (int dof = 0; dof < c.space.size(); ++dof) {
     left.layer_energy += w(dof) * (c.in_body[dof] ? layer_form : problem.a1).col(dof).dot(middle);
     if (c.in_body[dof]) continue;
@@ -200,8 +205,8 @@ void add_forms(VariationalInequality& strip, const Comparison& c, const LayerCol
 
 /// Fixes the unknowns below prescribed values, and returns the others at the bottom of the columns.
 /// These are bounded where u_h is; otherwise the list is empty.
-std::vector<int> divide_dofs(VariationalInequality& strip, const Comparison& c, const LayerColumns& columns,
-                             const CondensedBody& body) {
+std::vector<int> divide_dofs(VariationalInequality& strip, const Comparison& c,
+                             const LayerColumns& columns, const CondensedBody& body) {
   const int n = c.sigma.size();
   std::vector<int> bounded;
   for (int k = 0; k < (columns.rows + 1) * n; ++k) {
@@ -212,15 +217,17 @@ std::vector<int> divide_dofs(VariationalInequality& strip, const Comparison& c, 
     else if (at_bottom && !c.problem.bounds.unknowns.empty())
       bounded.push_back(k);
   }
-  strip.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strip.dirichlet_dofs.size()));
+  strip.dirichlet_values =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strip.dirichlet_dofs.size()));
   return bounded;
 }
 
-/// The bounds of u_h, interpolated to the unknowns `bounded` at the bottom of the columns, as bounds
-/// of v - u_h. `base` is u_h - v_0 on Sigma. The function that is interpolated is the distance to
-/// v_0.
-Bounds bounds_of_strip(const std::vector<int>& bounded, const Comparison& c, const LayerColumns& columns,
-                       const Eigen::VectorXd& v0, const Eigen::VectorXd& base) {
+/// The bounds of u_h, interpolated to the unknowns `bounded` at the bottom of the columns, as
+/// bounds of v - u_h. `base` is u_h - v_0 on Sigma. The function that is interpolated is the
+/// distance to v_0.
+Bounds bounds_of_strip(const std::vector<int>& bounded, const Comparison& c,
+                       const LayerColumns& columns, const Eigen::VectorXd& v0,
+                       const Eigen::VectorXd& base) {
   const Bounds& of_u = c.problem.bounds;
   const Eigen::VectorXd contact_x = c.space.dof_coordinates().col(0)(of_u.unknowns);
   const auto interpolated = [&](const Eigen::VectorXd& limits) {
@@ -249,7 +256,8 @@ Strip strip_for(const Comparison& c, const Remainders& left, const Eigen::Vector
   const int n = c.sigma.size();
   const LayerColumns columns = layer_columns(c.space, c.sigma, c.epsilon, c.s);
   const RowMatrix hats = correction_space(c.space, c.sigma, c.in_body);
-  const CondensedBody body = condensed_body(left.body_form, left.body_force, c.problem.dirichlet_dofs, hats, n);
+  const CondensedBody body =
+      condensed_body(left.body_form, left.body_force, c.problem.dirichlet_dofs, hats, n);
   const Eigen::VectorXd base = c.solution.u(c.sigma.dof) - v0(c.sigma.dof);
   Strip strip{{}, columns.rows, left.layer_energy};
   VariationalInequality& problem = strip.problem;
@@ -275,19 +283,24 @@ double price_of_lifting(const Comparison& c, const Strip& strip, const Solution&
   const Eigen::VectorXd v = c.on_sigma + moves;
   // what the solvers leave of v - v_0, with room
   const double tolerance = 1e-10 * (base + moves).cwiseAbs().maxCoeff() + 20 * c.ulp;
-  const Eigen::VectorXd lift = lift_into_k(c.sigma, basis, v, *c.scene.contact(), c.held, tolerance);
+  const Eigen::VectorXd lift =
+      lift_into_k(c.sigma, basis, v, *c.scene.contact(), c.held, tolerance);
   const Eigen::VectorXd d = lift.replicate(strip.rows + 1, 1);
   const VariationalInequality& problem = strip.problem;
-  if (!lift.allFinite() || !d(problem.dirichlet_dofs).isZero(0)) return std::numeric_limits<double>::infinity();
+  if (!lift.allFinite() || !d(problem.dirichlet_dofs).isZero(0))
+    return std::numeric_limits<double>::infinity();
   return d.dot(problem.a1 * (solution.u + d / 2) - problem.load);
 }
 
 }  // namespace
 
-double LockingLoss::share(double energy) const { return reference > 0 ? std::clamp(energy / reference, 0.0, 1.0) : 0; }
+double LockingLoss::share(double energy) const {
+  return reference > 0 ? std::clamp(energy / reference, 0.0, 1.0) : 0;
+}
 
 LockingLoss locking_loss(const Scene& scene, const Result& result) {
-  if ((result.problem.fixed_compliances.array() > 0).any()) return locking_loss(scene, assemble_fixed_rows(result));
+  if ((result.problem.fixed_compliances.array() > 0).any())
+    return locking_loss(scene, assemble_fixed_rows(result));
   const Comparison c = comparison_for(scene, result);
   const Eigen::VectorXd v0 = function_without_motion(c);
   const Remainders left = remainders(c, v0);
@@ -312,7 +325,8 @@ LockingLoss locking_loss(const Scene& scene, const Result& result) {
   // rest the motion that they seem to be worth is at most 2.2 ulp of that
   // (LockingLoss.HasNoMotionWhereAllIsAtRest), and ten times as much is room.
   const Eigen::VectorXd stiffness = problem.a1.diagonal().head(c.sigma.size());
-  const double round_off = left.round_off + 20 * c.ulp * motion.head(c.sigma.size()).cwiseAbs().dot(stiffness);
+  const double round_off =
+      left.round_off + 20 * c.ulp * motion.head(c.sigma.size()).cwiseAbs().dot(stiffness);
   // below this the round-off alone would be a share that is reported
   if (loss.reference < round_off / significance) loss.reference = 0;
   if (scene.contact()) loss.lower_bound -= price_of_lifting(c, strip, solution, base);

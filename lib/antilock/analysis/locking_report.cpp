@@ -18,14 +18,17 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
   if (!scene.epsilon()) return std::nullopt;
   if (!(scene.layer_depth() > 0)) return LockingReport{"no layer mesh: nothing here can lock"};
   if (!element.conforming())
-    return LockingReport{element.name() +
-                         " does not lock: half a motion without strain per layer triangle, on any mesh (Theorem 7)"};
+    return LockingReport{
+        element.name() +
+        " does not lock: half a motion without strain per layer triangle, on any mesh (Theorem 7)"};
   const LayerComponents components = layer_components(mesh);
   if (components.is_aligned)
-    return LockingReport{element.name() + " does not lock here: the columns of the layer are free of each other"};
+    return LockingReport{element.name() +
+                         " does not lock here: the columns of the layer are free of each other"};
   LockingReport report;
   report.diagnosis = fmt::format(
-      "below {} edges of Sigma the layer's triangles are tied into {} group{} by edges that are not vertical; without "
+      "below {} edges of Sigma the layer's triangles are tied into {} group{} by edges that are "
+      "not vertical; without "
       "strain {} is one polynomial of degree {} in x on each",
       std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma), components.count,
       components.count == 1 ? "" : "s", element.name(), element.degree());
@@ -36,21 +39,24 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
     report.diagnosis += std::string("; nothing is known of what it costs (") + error.what() + ")";
     return report;
   }
-  const double estimate = energy.share(energy.estimate), lower_bound = energy.share(energy.lower_bound);
+  const double estimate = energy.share(energy.estimate),
+               lower_bound = energy.share(energy.lower_bound);
   const bool locks = estimate >= significance, by_proof = !locks || lower_bound >= significance;
   if (by_proof) report.lost = lower_bound;
   report.estimate = estimate;
   report.reference = energy.reference;
   if (!locks) {
-    report.diagnosis += energy.reference > 0
-                            ? fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy",
-                                          *scene.epsilon(), 100 * significance)
-                            : "; the layer moves no further than round-off here";
+    report.diagnosis +=
+        energy.reference > 0
+            ? fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy",
+                          *scene.epsilon(), 100 * significance)
+            : "; the layer moves no further than round-off here";
     return report;
   }
   report.diagnosis += fmt::format("; at epsilon = {:g} it locks", *scene.epsilon());
   report.warning = fmt::format(
-      "{} locks in this layer: it loses {} {:.0f} % of the energy that the layer's motion releases ({}); "
+      "{} locks in this layer: it loses {} {:.0f} % of the energy that the layer's motion releases "
+      "({}); "
       "remedy: element = \"CR\", or a layer in columns (kind = \"layered\")",
       element.name(), by_proof ? "at least" : "about",
       std::min(std::floor(100 * (by_proof ? lower_bound : estimate)), 99.0),

@@ -13,12 +13,14 @@
 
 namespace antilock {
 
-NegativePart negative_part(const Space& space, VariationalInequality problem, const SparseMatrix& norm) {
+NegativePart negative_part(const Space& space, VariationalInequality problem,
+                           const SparseMatrix& norm) {
   const Element& element = space.element();
   const bool quadratic = element.degree() == 2;
   if (element.conforming() && element.degree() == 1) return {};
   if (element.degree() > 2)
-    throw Error("negative part on Gamma_C: element " + element.name() + " is not accepted; P1, P2 or CR");
+    throw Error("negative part on Gamma_C: element " + element.name() +
+                " is not accepted; P1, P2 or CR");
   const std::vector<ContactEdge> edges = contact_edges(space.mesh());
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < static_cast<int>(edges.size()); ++row) {
@@ -32,7 +34,8 @@ NegativePart negative_part(const Space& space, VariationalInequality problem, co
   problem.b.resize(static_cast<Eigen::Index>(edges.size()), space.size());
   problem.b.setFromTriplets(entries.begin(), entries.end());
   problem.m = Eigen::VectorXd::Ones(problem.b.rows());
-  // sup |B v|^2 / |v|_h^2 is the largest eigenvalue mu of B norm^-1 B'; it is reached where norm v = B' x
+  // sup |B v|^2 / |v|_h^2 is the largest eigenvalue mu of B norm^-1 B'; it is reached where norm
+  // v = B' x
   const SymmetricEigen seen = symmetric_eigen(multiplier_gram(problem, norm));
   const double largest = seen.values.tail(1)(0);
   problem.load = problem.b.transpose() * seen.vectors.rightCols(1);
@@ -40,7 +43,8 @@ NegativePart negative_part(const Space& space, VariationalInequality problem, co
   problem.b.resize(0, problem.size());
   problem.m.resize(0);
   const std::vector<bool> none(problem.bounds.unknowns.size());
-  return {std::sqrt(largest), active_set(equality_constrained(problem, none)).u / std::sqrt(largest)};
+  return {std::sqrt(largest),
+          active_set(equality_constrained(problem, none)).u / std::sqrt(largest)};
 }
 
 }  // namespace antilock

@@ -28,6 +28,7 @@ struct NegativePart {
 /// fixed to 0, CR's worst v_h is in K_h, and its negative part has the norm c_h / 2^(1/2). The
 /// eigenvalue problem is dense and has one row per edge of Gamma_C. Throws Error for other elements
 /// than P1, P2 and CR.
-NegativePart negative_part(const Space& space, VariationalInequality problem, const SparseMatrix& norm);
+NegativePart negative_part(const Space& space, VariationalInequality problem,
+                           const SparseMatrix& norm);
 
 }  // namespace antilock

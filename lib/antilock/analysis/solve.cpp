@@ -10,7 +10,8 @@
 namespace antilock {
 
 Result solve(const Scene& scene, const Space& space, const ActiveSetOptions& options) {
-  return solve(scene, space, [&](const VariationalInequality& problem) { return active_set(problem, options); });
+  return solve(scene, space,
+               [&](const VariationalInequality& problem) { return active_set(problem, options); });
 }
 
 Result solve(const Scene& scene, const Space& space, const Solver& solver) {

@@ -22,8 +22,9 @@ EnergyBounds energy_bounds(const Scene& scene, const TriangleMesh& mesh) {
 
 AlgebraicTolerance balanced_tolerance(const EnergyBounds& bracket, double coarser, double share) {
   if (!(coarser >= 1 && std::isfinite(coarser) && share > 0 && share <= 1))
-    throw Error(fmt::format("accurate enough: {} times as coarse, a share of {}; accepted: 1 or more, above 0 up to 1",
-                            coarser, share));
+    throw Error(fmt::format(
+        "accurate enough: {} times as coarse, a share of {}; accepted: 1 or more, above 0 up to 1",
+        coarser, share));
   const double scale = std::max(std::abs(bracket.upper), std::abs(bracket.lower));
   if (!(bracket.width() > 0)) return {};
   const double relative = share * bracket.width() / (coarser * coarser) / scale;

@@ -35,6 +35,7 @@ EnergyBounds energy_bounds(const Scene& scene, const TriangleMesh& mesh);
 /// width falls more slowly. The tolerance is then stricter than necessary, which is safe. Where the
 /// width is not positive, both tolerances are 0. Throws Error unless coarser >= 1 and 0 < share <=
 /// 1.
-AlgebraicTolerance balanced_tolerance(const EnergyBounds& bracket, double coarser = 1, double share = 0.05);
+AlgebraicTolerance balanced_tolerance(const EnergyBounds& bracket, double coarser = 1,
+                                      double share = 0.05);
 
 }  // namespace antilock

@@ -93,9 +93,13 @@ namespace {
 
 void check_sizes(const TriangleMesh& mesh, const FluxLaw& law, const ConformingCompanion& v) {
   const auto layer = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
-  if (v.at_vertices.size() != mesh.vertex_count() || (law.split && !v.layer && v.stress.size() != layer))
-    throw Error("certificate: the companion has another number of values than the mesh has vertices or layer cells");
-  if (!v.at_vertices.allFinite() || !v.stress.allFinite()) throw Error("certificate: the companion is not finite");
+  if (v.at_vertices.size() != mesh.vertex_count() ||
+      (law.split && !v.layer && v.stress.size() != layer))
+    throw Error(
+        "certificate: the companion has another number of values than the mesh has vertices or "
+        "layer cells");
+  if (!v.at_vertices.allFinite() || !v.stress.allFinite())
+    throw Error("certificate: the companion is not finite");
 }
 
 /// The mean of v over an edge of the mesh.
@@ -103,7 +107,8 @@ double mean_on(const TriangleMesh& mesh, int e, const ConformingCompanion& v) {
   const int a = mesh.edges(e, 0);
   const int b = mesh.edges(e, 1);
   const auto is_of_body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
-  const bool in_layer = !is_of_body(mesh.edge_triangles(e, 0)) && !is_of_body(mesh.edge_triangles(e, 1));
+  const bool in_layer =
+      !is_of_body(mesh.edge_triangles(e, 0)) && !is_of_body(mesh.edge_triangles(e, 1));
   if (v.layer && in_layer) return v.layer->mean(mesh.vertices.row(a), mesh.vertices.row(b));
   return (v.at_vertices(a) + v.at_vertices(b)) / 2;
 }
@@ -119,28 +124,33 @@ void check_prescribed(const Scene& scene, const Result& result, const Conforming
   const VariationalInequality& problem = result.problem;
   const TriangleMesh& mesh = result.space.mesh();
   const Eigen::VectorXd prescribed = dirichlet_vertex_values(scene, mesh);
-  const double scale = std::max(prescribed.cwiseAbs().maxCoeff(), v.at_vertices.cwiseAbs().maxCoeff());
-  const auto differs = [&](double value, double asked) { return !(std::abs(value - asked) <= 1e-11 * scale); };
+  const double scale =
+      std::max(prescribed.cwiseAbs().maxCoeff(), v.at_vertices.cwiseAbs().maxCoeff());
+  const auto differs = [&](double value, double asked) {
+    return !(std::abs(value - asked) <= 1e-11 * scale);
+  };
   for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i) {
     const auto ends = mesh.edges.row(problem.dirichlet_dofs[i]);
     for (const int vertex : {ends(0), ends(1)}) {
       const double found = value_at(mesh, vertex, v);
       if (differs(found, prescribed(vertex)))
-        throw Error(fmt::format("certificate: the companion is {} at {}, where {} is prescribed", found,
-                                mesh.location_text(vertex), prescribed(vertex)));
+        throw Error(fmt::format("certificate: the companion is {} at {}, where {} is prescribed",
+                                found, mesh.location_text(vertex), prescribed(vertex)));
     }
     const double value = problem.dirichlet_values(static_cast<Eigen::Index>(i));
     const double mean = prescribed(ends).mean();
     if (differs(value, mean))
-      throw Error(fmt::format(
-          "certificate: {} is fixed between {} and {}, where the scene prescribes the mean {}; accepted: the "
-          "scene's values",
-          value, mesh.location_text(ends(0)), mesh.location_text(ends(1)), mean));
+      throw Error(
+          fmt::format("certificate: {} is fixed between {} and {}, where the scene prescribes the "
+                      "mean {}; accepted: the "
+                      "scene's values",
+                      value, mesh.location_text(ends(0)), mesh.location_text(ends(1)), mean));
   }
 }
 
 /// Throws unless v >= -g between the vertices, too, by samples: else the proof does not start.
-void check_admissible(const UnilateralContact& contact, const TriangleMesh& mesh, const Eigen::VectorXd& v) {
+void check_admissible(const UnilateralContact& contact, const TriangleMesh& mesh,
+                      const Eigen::VectorXd& v) {
   constexpr int samples = 8;  // of those of admissible_bounds
   const double scale = v.cwiseAbs().maxCoeff();
   for (int e = 0; e < mesh.edge_count(); ++e) {
@@ -153,10 +163,10 @@ void check_admissible(const UnilateralContact& contact, const TriangleMesh& mesh
       const double gap = contact.gap(x);
       const double above = (1 - theta) * v(from) + theta * v(to) + gap;
       if (!(above >= -1e-9 * std::max(scale, std::abs(gap))))
-        throw Error(
-            fmt::format("certificate: the companion is {:.1e} below the obstacle at x = {:.6g}; accepted: a "
-                        "function of K, as admissible_bounds make it",
-                        -above, x));
+        throw Error(fmt::format(
+            "certificate: the companion is {:.1e} below the obstacle at x = {:.6g}; accepted: a "
+            "function of K, as admissible_bounds make it",
+            -above, x));
     }
   }
 }
@@ -178,21 +188,24 @@ double column_norm2(const ExtrudedP1Function& columns, const FluxLaw& law) {
 
 /// Half of m^2 on a triangle of the layer, by quadrature, where v lives on columns of its own. It
 /// is for the indicator alone.
-double column_mismatch(const TriangleMesh& mesh, int t, const FluxCell& here, const ExtrudedP1Function& columns) {
+double column_mismatch(const TriangleMesh& mesh, int t, const FluxCell& here,
+                       const ExtrudedP1Function& columns) {
   const Quadrature& midpoints = midpoint_rule();
   double half = 0;
   for (Eigen::Index q = 0; q < midpoints.weights.size(); ++q) {
     // a little inside of the triangle: its edges may be edges of columns, where the flux jumps
-    const Eigen::Vector3d inside = 0.98 * midpoints.points.row(q).transpose() + Eigen::Vector3d::Constant(0.02 / 3);
-    const Eigen::Vector2d off = here.law.stiffness * columns.flux(point_in(mesh, t, inside)) - here.s;
+    const Eigen::Vector3d inside =
+        0.98 * midpoints.points.row(q).transpose() + Eigen::Vector3d::Constant(0.02 / 3);
+    const Eigen::Vector2d off =
+        here.law.stiffness * columns.flux(point_in(mesh, t, inside)) - here.s;
     half += mesh.area(t) * midpoints.weights(q) * here.law.squared(off) / 2;
   }
   return half;
 }
 
 /// Sums over all triangles, and adds m^2 / 2 + osc^2 of each to its indicator.
-Sums sums_over_triangles(const TriangleMesh& mesh, const EquilibratedFlux& flux, const ConformingCompanion& v,
-                         Eigen::VectorXd& indicator) {
+Sums sums_over_triangles(const TriangleMesh& mesh, const EquilibratedFlux& flux,
+                         const ConformingCompanion& v, Eigen::VectorXd& indicator) {
   Sums sums;
   sums.work = flux.traction_load.dot(v.at_vertices);
   if (v.layer) sums.norm2 = column_norm2(*v.layer, flux.law);
@@ -208,7 +221,7 @@ Sums sums_over_triangles(const TriangleMesh& mesh, const EquilibratedFlux& flux,
       const Eigen::Vector2d of_v = v.flux(mesh, t, row, here.law);
       sums.norm2 += area * here.law.squared(of_v);
       mismatch2 = area * here.law.squared(of_v - here.s) + here.tau2;  // tau has mean zero on T
-      for (int i = 0; i < 3; ++i)                                      // mean(f lambda_i) = (f_i + 3 f_T) / 12
+      for (int i = 0; i < 3; ++i)  // mean(f lambda_i) = (f_i + 3 f_T) / 12
         sums.work += area * (here.f(i) + here.f.sum()) / 12 * v.at_vertices(mesh.triangles(t, i));
     }
     if (layer) ++row;
@@ -220,8 +233,8 @@ Sums sums_over_triangles(const TriangleMesh& mesh, const EquilibratedFlux& flux,
 
 /// C: the work of the contact forces on v + g. Each edge's share is added to the indicator of its
 /// triangle.
-double contact_work(const Result& result, const EquilibratedFlux& flux, const ConformingCompanion& v,
-                    Eigen::VectorXd& indicator) {
+double contact_work(const Result& result, const EquilibratedFlux& flux,
+                    const ConformingCompanion& v, Eigen::VectorXd& indicator) {
   const TriangleMesh& mesh = result.space.mesh();
   double sum = 0;
   for (std::size_t i = 0; i < result.problem.bounds.unknowns.size(); ++i) {
@@ -236,11 +249,13 @@ double contact_work(const Result& result, const EquilibratedFlux& flux, const Co
 }
 
 /// R(v), without the forces that are round-off: that spares their means over columns.
-double unbalanced_work(const TriangleMesh& mesh, const EquilibratedFlux& flux, const ConformingCompanion& v) {
+double unbalanced_work(const TriangleMesh& mesh, const EquilibratedFlux& flux,
+                       const ConformingCompanion& v) {
   const double round_off = 1e-13 * flux.residual.lpNorm<Eigen::Infinity>();
   double work = 0;
   for (Eigen::Index e = 0; e < flux.imbalance.size(); ++e)
-    if (std::abs(flux.imbalance(e)) > round_off) work += flux.imbalance(e) * mean_on(mesh, static_cast<int>(e), v);
+    if (std::abs(flux.imbalance(e)) > round_off)
+      work += flux.imbalance(e) * mean_on(mesh, static_cast<int>(e), v);
   return work;
 }
 
@@ -248,18 +263,18 @@ double unbalanced_work(const TriangleMesh& mesh, const EquilibratedFlux& flux, c
 /// size of the energies.
 double checked_mismatch2(const Sums& sums, double by_identity, bool own_columns, double scale) {
   if (!(by_identity >= -1e-12 * scale))
-    throw Error(
-        fmt::format("certificate: round-off has eaten the mismatch, {:.1e} of the energy; accepted: values at "
-                    "the vertices that agree with the fixed ones, cells far from degenerate",
-                    by_identity / scale));
+    throw Error(fmt::format(
+        "certificate: round-off has eaten the mismatch, {:.1e} of the energy; accepted: values at "
+        "the vertices that agree with the fixed ones, cells far from degenerate",
+        by_identity / scale));
   // on columns of its own v shares no triangle of the layer: the identity alone has their part
   if (own_columns) return std::max(by_identity, sums.mismatch2);
   const double difference = std::abs(by_identity - sums.mismatch2);
   if (difference > 1e-10 * scale)
-    throw Error(
-        fmt::format("certificate: the companion does not have the fixed values: the two sides of the identity "
-                    "differ by {:.1e} of the energy",
-                    difference / scale));
+    throw Error(fmt::format(
+        "certificate: the companion does not have the fixed values: the two sides of the identity "
+        "differ by {:.1e} of the energy",
+        difference / scale));
   return sums.mismatch2;
 }
 
@@ -286,15 +301,19 @@ void check_one_mesh(const ConformingCompanion& v, const Result& w) {
   const VariationalInequality& problem = w.problem;
   if (v.layer)
     throw Error(
-        "certificate: the companion has columns of its own; accepted: one on the mesh, as local_companion with "
+        "certificate: the companion has columns of its own; accepted: one on the mesh, as "
+        "local_companion with "
         "on_mesh, "
         "p1_companion or an extruded mesh make it");
   const Eigen::Index per_triangle = v.stress.size() > 0 ? problem.b.rows() / v.stress.size() : 0;
-  const bool same_unknowns = w.solution.u.size() == w.space.size() && problem.size() == w.space.size();
-  const bool same_rows = w.solution.p.size() == problem.b.rows() && per_triangle * v.stress.size() == problem.b.rows();
+  const bool same_unknowns =
+      w.solution.u.size() == w.space.size() && problem.size() == w.space.size();
+  const bool same_rows =
+      w.solution.p.size() == problem.b.rows() && per_triangle * v.stress.size() == problem.b.rows();
   if (v.at_vertices.size() != w.space.mesh().vertex_count() || !same_unknowns || !same_rows)
     throw Error(fmt::format(
-        "certificate: the companion has {} values and {} stresses, the solution {} and {}; accepted: both on one mesh",
+        "certificate: the companion has {} values and {} stresses, the solution {} and {}; "
+        "accepted: both on one mesh",
         v.at_vertices.size(), v.stress.size(), w.solution.u.size(), w.solution.p.size()));
 }
 
@@ -306,12 +325,15 @@ double Certificate::relative(Quantity of) const {
   return norm_of_u > 0 ? bound(of) / norm_of_u : std::numeric_limits<double>::infinity();
 }
 
-double residual_norm(const VariationalInequality& problem, const EquilibratedFlux& flux, PenalisedCholesky* factor) {
+double residual_norm(const VariationalInequality& problem, const EquilibratedFlux& flux,
+                     PenalisedCholesky* factor) {
   std::optional<PenalisedCholesky> own;
   if (factor == nullptr) factor = &own.emplace(problem);
   factor->check_fits(problem);
   if (factor->delta() < problem.compliance)
-    throw Error("certificate: the factor has a smaller penalty than the compliance; accepted: at least as large");
+    throw Error(
+        "certificate: the factor has a smaller penalty than the compliance; accepted: at least as "
+        "large");
   const Eigen::VectorXd r1 = flux.imbalance(factor->ordering().dof);
   if (ConstrainedCholesky* const held = factor->sparse_factor())
     held->constrain(std::vector<char>(r1.size(), 0));  // the whole K
@@ -340,10 +362,12 @@ Certificate certify(const Scene& scene, const Result& result, const CertificateO
   const double work_of_r = unbalanced_work(mesh, flux, v);  // R(v)
   certificate.energy_upper = sums.norm2 / 2 - sums.work;
   const double scale = sums.norm2 + flux.norm2 + std::abs(sums.work);
-  const double by_identity = 2 * (certificate.energy_upper - flux.dual_energy - work_of_r - certificate.contact_work);
+  const double by_identity =
+      2 * (certificate.energy_upper - flux.dual_energy - work_of_r - certificate.contact_work);
   const double mismatch2 = checked_mismatch2(sums, by_identity, v.layer.has_value(), scale);
   certificate.constitutive_error = std::sqrt(mismatch2);
-  certificate.midpoint_norm = std::sqrt(std::max(2 * sums.norm2 + 2 * flux.norm2 - mismatch2, 0.0)) / 2;
+  certificate.midpoint_norm =
+      std::sqrt(std::max(2 * sums.norm2 + 2 * flux.norm2 - mismatch2, 0.0)) / 2;
   add_bounds(certificate);
   const double q = certificate.oscillation + certificate.algebraic_residual_norm;
   certificate.energy_lower = flux.dual_energy + work_of_r - q * certificate.displacement;
@@ -351,10 +375,12 @@ Certificate certify(const Scene& scene, const Result& result, const CertificateO
   return certificate;
 }
 
-double certified_distance(const Certificate& certificate, const ConformingCompanion& v, const Result& w) {
+double certified_distance(const Certificate& certificate, const ConformingCompanion& v,
+                          const Result& w) {
   const Space& space = w.space;
   const VariationalInequality& problem = w.problem;
-  if ((problem.fixed_compliances.array() > 0).any()) return certified_distance(certificate, v, assemble_fixed_rows(w));
+  if ((problem.fixed_compliances.array() > 0).any())
+    return certified_distance(certificate, v, assemble_fixed_rows(w));
   check_one_mesh(v, w);
   const TriangleMesh& mesh = space.mesh();
   const Eigen::MatrixX3d nodes = space.element().support_points();

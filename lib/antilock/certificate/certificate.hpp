@@ -54,7 +54,8 @@ struct CertificateOptions {
 /// vectors of their sizes, for example of a solve that was stopped early, because the bound
 /// contains their residual. Throws Error where equilibrated_flux or local_companion do, for a
 /// companion that does not fit or is not in K, and where the constitutive error is below round-off.
-Certificate certify(const Scene& scene, const Result& result, const CertificateOptions& options = {});
+Certificate certify(const Scene& scene, const Result& result,
+                    const CertificateOptions& options = {});
 
 /// Returns rho = (r1' A_delta^-1 r1)^(1/2), the norm of the unbalanced forces r1 of the flux
 /// (EquilibratedFlux::imbalance). It bounds their work, |R(v)| <= rho |v|_a. A_delta = A1 +
@@ -69,6 +70,7 @@ double residual_norm(const VariationalInequality& problem, const EquilibratedFlu
 /// of v, however accurate w is. Throws Error for a companion
 /// v with columns of its own (accepted: local_companion with on_mesh, p1_companion, an extruded
 /// mesh) and for sizes that do not fit.
-double certified_distance(const Certificate& certificate, const ConformingCompanion& v, const Result& w);
+double certified_distance(const Certificate& certificate, const ConformingCompanion& v,
+                          const Result& w);
 
 }  // namespace antilock

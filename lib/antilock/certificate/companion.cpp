@@ -22,7 +22,8 @@ namespace {
 std::vector<char> held_vertices(const Result& result) {
   const TriangleMesh& mesh = result.space.mesh();
   std::vector<char> held(mesh.vertex_count(), 0);
-  for (const std::vector<int>* list : {&result.problem.dirichlet_dofs, &result.space.dirichlet_dofs()})
+  for (const std::vector<int>* list :
+       {&result.problem.dirichlet_dofs, &result.space.dirichlet_dofs()})
     for (const int e : *list)
       for (const int v : mesh.edges.row(e)) held[v] = 1;
   return held;
@@ -60,7 +61,8 @@ Eigen::Index layer_triangle_count(const TriangleMesh& mesh) {
 
 /// Their corners, three rows per triangle.
 Points layer_corners(const TriangleMesh& mesh) {
-  const auto corners = mesh.triangles.bottomRows(layer_triangle_count(mesh)).reshaped<Eigen::RowMajor>();
+  const auto corners =
+      mesh.triangles.bottomRows(layer_triangle_count(mesh)).reshaped<Eigen::RowMajor>();
   return mesh.vertices(corners, Eigen::indexing::all);
 }
 
@@ -97,16 +99,18 @@ Eigen::Array2d bounds_of_both_ends(const Eigen::ArrayXd& obstacle, const Eigen::
   const double raise = std::max(0.0, (obstacle - rest * first - s * last).maxCoeff());
   const Eigen::Array2d smooth(first + raise, last + raise);
   const Eigen::Array2d level = Eigen::Array2d::Constant(obstacle.maxCoeff());
-  const auto lifts = [&](const Eigen::Array2d& bound) {  // how far v is lifted, and the bounds themselves
-    return std::pair((bound - at).max(0).square().sum(), bound.sum());
-  };
+  const auto lifts =
+      [&](const Eigen::Array2d& bound) {  // how far v is lifted, and the bounds themselves
+        return std::pair((bound - at).max(0).square().sum(), bound.sum());
+      };
   return lifts(level) < lifts(smooth) ? level : smooth;
 }
 
 /// Per vertex: the number of its contact unknown; -1 where there is none, or v is prescribed.
 std::vector<int> contact_numbers(const Space& space) {
   std::vector<int> number(space.mesh().vertex_count(), -1);
-  for (std::size_t i = 0; i < space.contact_dofs().size(); ++i) number[space.contact_dofs()[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < space.contact_dofs().size(); ++i)
+    number[space.contact_dofs()[i]] = static_cast<int>(i);
   return number;
 }
 
@@ -141,8 +145,8 @@ struct Strip {
 
 /// Fixes the body's vertices off the line and the known values; the rest is solved for.
 /// `at_vertices`: v on the mesh.
-void fix_known(Strip& strip, const Scene& scene, const std::vector<char>& on_line, const std::vector<char>& held,
-               const Eigen::VectorXd& at_vertices) {
+void fix_known(Strip& strip, const Scene& scene, const std::vector<char>& on_line,
+               const std::vector<char>& held, const Eigen::VectorXd& at_vertices) {
   const TriangleMesh& mesh = strip.space.mesh();
   strip.fixed.assign(mesh.vertex_count(), 0);
   strip.value = dirichlet_vertex_values(scene, mesh);
@@ -158,8 +162,8 @@ void fix_known(Strip& strip, const Scene& scene, const std::vector<char>& on_lin
 }
 
 /// Values near v at the vertices of the strip: those of `at_vertices` on the line at the same x.
-Eigen::VectorXd values_above(const Strip& strip, const TriangleMesh& mesh, const std::vector<char>& on_line,
-                             const Eigen::VectorXd& at_vertices) {
+Eigen::VectorXd values_above(const Strip& strip, const TriangleMesh& mesh,
+                             const std::vector<char>& on_line, const Eigen::VectorXd& at_vertices) {
   std::map<double, double> above;
   for (int v = 0; v < mesh.vertex_count(); ++v)
     if (on_line[v]) above[mesh.vertices(v, 0)] = at_vertices(v);
@@ -176,7 +180,8 @@ Eigen::VectorXd values_above(const Strip& strip, const TriangleMesh& mesh, const
 /// in K. `near` as in admissible_bounds.
 void add_conditions(VariationalInequality& problem, const Strip& strip, const Scene& scene,
                     const Eigen::VectorXd& near) {
-  if (scene.contact()) problem.bounds.lower = admissible_bounds(*scene.contact(), strip.space, near);
+  if (scene.contact())
+    problem.bounds.lower = admissible_bounds(*scene.contact(), strip.space, near);
   problem.dirichlet_dofs.clear();
   for (int v = 0; v < strip.space.size(); ++v)
     if (strip.fixed[v]) problem.dirichlet_dofs.push_back(v);
@@ -201,8 +206,8 @@ Solution solve_strip(const VariationalInequality& problem, const Eigen::VectorXd
 }
 
 /// Sets v in the layer to the solution on columns, which may be those of the mesh.
-void take_columns(ConformingCompanion& companion, const TriangleMesh& mesh, const TriangleMesh& columns,
-                  Solution solution) {
+void take_columns(ConformingCompanion& companion, const TriangleMesh& mesh,
+                  const TriangleMesh& columns, Solution solution) {
   const Points ours = layer_corners(mesh);
   const Points theirs = layer_corners(columns);
   const bool same = ours.rows() == theirs.rows() && ours == theirs;
@@ -218,24 +223,31 @@ void take_columns(ConformingCompanion& companion, const TriangleMesh& mesh, cons
 
 }  // namespace
 
-Eigen::Vector2d ConformingCompanion::flux(const TriangleMesh& mesh, int t, int row, const FluxLaw& law) const {
-  Eigen::Vector2d flux = barycentric_gradients(mesh, t).transpose() * at_vertices(mesh.triangles.row(t));
+Eigen::Vector2d ConformingCompanion::flux(const TriangleMesh& mesh, int t, int row,
+                                          const FluxLaw& law) const {
+  Eigen::Vector2d flux =
+      barycentric_gradients(mesh, t).transpose() * at_vertices(mesh.triangles.row(t));
   if (law.split) flux(1) = stress(row);
   return law.stiffness * flux;
 }
 
-Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Eigen::VectorXd& near) {
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space,
+                                  const Eigen::VectorXd& near) {
   const TriangleMesh& mesh = space.mesh();
   const std::vector<int> number = contact_numbers(space);
-  Eigen::VectorXd lower = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(space.contact_dofs().size()),
-                                                    -std::numeric_limits<double>::infinity());
+  Eigen::VectorXd lower =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(space.contact_dofs().size()),
+                                -std::numeric_limits<double>::infinity());
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     const std::array<int, 2> ends{mesh.edges(e, 0), mesh.edges(e, 1)};
-    const Eigen::ArrayXd obstacle = sampled_obstacle(contact.gap, mesh.vertices(ends[0], 0), mesh.vertices(ends[1], 0));
+    const Eigen::ArrayXd obstacle =
+        sampled_obstacle(contact.gap, mesh.vertices(ends[0], 0), mesh.vertices(ends[1], 0));
     const Eigen::Array2d at(near(ends[0]), near(ends[1]));
-    const bool alone = number[ends[0]] < 0 || number[ends[1]] < 0;  // where the other end cannot help
-    const Eigen::Array2d bound = alone ? bounds_of_one_end(obstacle, at) : bounds_of_both_ends(obstacle, at);
+    const bool alone =
+        number[ends[0]] < 0 || number[ends[1]] < 0;  // where the other end cannot help
+    const Eigen::Array2d bound =
+        alone ? bounds_of_one_end(obstacle, at) : bounds_of_both_ends(obstacle, at);
     for (int end = 0; end < 2; ++end) {
       const int i = number[ends[end]];
       if (i >= 0) lower(i) = std::max(lower(i), bound[end]);
@@ -247,7 +259,8 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space&
 VariationalInequality assemble_in_k(const Scene& scene, const Space& space) {
   VariationalInequality problem = assemble(scene, space);
   if (scene.contact())
-    problem.bounds.lower = admissible_bounds(*scene.contact(), space, dirichlet_vertex_values(scene, space.mesh()));
+    problem.bounds.lower =
+        admissible_bounds(*scene.contact(), space, dirichlet_vertex_values(scene, space.mesh()));
   return problem;
 }
 
@@ -261,7 +274,8 @@ ConformingCompanion local_companion(const Scene& scene, const Result& result, bo
 
   Submesh cut = cut_along(mesh, on_line, stiff == nullptr);
   const Space space(stiff != nullptr ? extruded(cut.mesh, stiff->epsilon) : cut.mesh, p1());
-  VariationalInequality problem = assemble_fixed_rows(assemble(scene, space));  // any v of K will do
+  VariationalInequality problem =
+      assemble_fixed_rows(assemble(scene, space));  // any v of K will do
   Strip strip{std::move(cut), space, {}};
   fix_known(strip, scene, on_line, held, companion.at_vertices);
   const Eigen::VectorXd near = values_above(strip, mesh, on_line, companion.at_vertices);

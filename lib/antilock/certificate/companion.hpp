@@ -36,7 +36,8 @@ struct ConformingCompanion {
 /// the other end alone keeps v above -gap. The gap is sampled at 33 points per edge. `near` (V
 /// values) equals v at prescribed vertices, and approximates v elsewhere. Throws Error where the
 /// gap is not finite.
-Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Eigen::VectorXd& near);
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space,
+                                  const Eigen::VectorXd& near);
 
 /// Assembles the problem of a scene on a P1 space with the bounds of admissible_bounds, so that the
 /// discrete admissible set K_h is a subset of K.

@@ -19,7 +19,9 @@ namespace {
 /// The traction on the edges with a tag; null where there is none.
 const Field* traction_on(const Scene& scene, EdgeTag tag) {
   const int k = tag.group;
-  return k < 0 || scene.edges()[k].kind != BoundaryCondition::Kind::traction ? nullptr : &scene.edges()[k].value;
+  return k < 0 || scene.edges()[k].kind != BoundaryCondition::Kind::traction
+             ? nullptr
+             : &scene.edges()[k].value;
 }
 
 /// Throws for an element, a feature or a layer without a flux in equilibrium.
@@ -33,7 +35,8 @@ void check_scene(const Scene& scene, const Result& result) {
     throw Error("certificate: has no flux for " + beyond + "; accepted: a scene without it");
   if (std::holds_alternative<VentcelLayer>(scene.layer()))
     throw Error(
-        "certificate: the Ventcel layer has no flux of its own; accepted: the scaled layer with epsilon = 0, which is "
+        "certificate: the Ventcel layer has no flux of its own; accepted: the scaled layer with "
+        "epsilon = 0, which is "
         "the same problem");
 }
 
@@ -45,12 +48,14 @@ void check_solution(const Scene& scene, const Result& result) {
   const auto& region = space.mesh().region;
   const bool split = std::holds_alternative<StiffLayer>(scene.layer());
   const auto rows = split ? std::count(region.begin(), region.end(), Region::layer) : 0;
-  if (problem.size() != space.size() || solution.u.size() != space.size() || problem.b.rows() != rows ||
-      solution.p.size() != problem.b.rows())
-    throw Error(fmt::format(
-        "certificate: problem and solution have {} and {} unknowns, {} and {} layer stresses; accepted: {} and {}, of "
-        "the scene on this space",
-        problem.size(), solution.u.size(), problem.b.rows(), solution.p.size(), space.size(), rows));
+  if (problem.size() != space.size() || solution.u.size() != space.size() ||
+      problem.b.rows() != rows || solution.p.size() != problem.b.rows())
+    throw Error(
+        fmt::format("certificate: problem and solution have {} and {} unknowns, {} and {} layer "
+                    "stresses; accepted: {} and {}, of "
+                    "the scene on this space",
+                    problem.size(), solution.u.size(), problem.b.rows(), solution.p.size(),
+                    space.size(), rows));
   if (!solution.u.allFinite() || !solution.p.allFinite())
     throw Error("certificate: the solution is not finite; accepted: finite numbers");
 }
@@ -58,7 +63,8 @@ void check_solution(const Scene& scene, const Result& result) {
 /// Throws for conditions on the boundary that the flux does not have.
 void check_boundary(const Scene& scene, const Space& space, const VariationalInequality& problem) {
   const TriangleMesh& mesh = space.mesh();
-  if (problem.bounds.unknowns.empty() == scene.contact().has_value() && !space.contact_dofs().empty())
+  if (problem.bounds.unknowns.empty() == scene.contact().has_value() &&
+      !space.contact_dofs().empty())
     throw Error("certificate: scene and problem do not agree whether there is contact");
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const bool of_layer = mesh.region[mesh.edge_triangles(e, 0)] == Region::layer;
@@ -70,13 +76,15 @@ void check_boundary(const Scene& scene, const Space& space, const VariationalIne
       throw Error("certificate: a value is fixed inside the domain; accepted: on the boundary");
   for (const int e : problem.bounds.unknowns)
     if (mesh.edge_tag[e] != EdgeTag::contact)
-      throw Error("certificate: an unknown off Gamma_C is bounded; accepted: bounds on the edges in the group contact");
+      throw Error(
+          "certificate: an unknown off Gamma_C is bounded; accepted: bounds on the edges in the "
+          "group contact");
 }
 
 /// Throws unless the displacement given on edge e is affine, with the values `at_vertices` at its
 /// ends, as far as three points between them show: the conforming v takes it as it is.
-void check_displacement_on(const Scene& scene, const TriangleMesh& mesh, int e, const Eigen::VectorXd& at_vertices,
-                           double tolerance) {
+void check_displacement_on(const Scene& scene, const TriangleMesh& mesh, int e,
+                           const Eigen::VectorXd& at_vertices, double tolerance) {
   const int from = mesh.edges(e, 0);
   const int to = mesh.edges(e, 1);
   const int group = mesh.edge_tag[e].group;
@@ -87,10 +95,11 @@ void check_displacement_on(const Scene& scene, const TriangleMesh& mesh, int e, 
     const double given = group < 0 ? 0 : scene.edges()[group].value(x(0), x(1));
     const double off = given - affine;
     if (!(std::abs(off) <= tolerance))
-      throw Error(
-          fmt::format("certificate: the displacement given at ({:.6g}, {:.6g}) is {:.1e} off that of the vertices "
-                      "beside it; accepted: values that do not jump, affine on every edge of the mesh",
-                      x(0), x(1), off));
+      throw Error(fmt::format(
+          "certificate: the displacement given at ({:.6g}, {:.6g}) is {:.1e} off that of the "
+          "vertices "
+          "beside it; accepted: values that do not jump, affine on every edge of the mesh",
+          x(0), x(1), off));
   }
 }
 
@@ -117,10 +126,10 @@ double constant_stiffness(const Field& stiffness, const TriangleMesh& mesh, int 
     const Eigen::Vector2d x = point_in(mesh, t, 0.98 * there + Eigen::Vector3d::Constant(0.02 / 3));
     const double other = stiffness(x(0), x(1));
     if (std::abs(other - kappa) > 1e-12 * kappa)
-      throw Error(
-          fmt::format("certificate: the stiffness is {:.6g} and {:.6g} on the triangle at ({:.6g}, {:.6g}); "
-                      "accepted: one number per triangle, as of groups of surfaces",
-                      kappa, other, x(0), x(1)));
+      throw Error(fmt::format(
+          "certificate: the stiffness is {:.6g} and {:.6g} on the triangle at ({:.6g}, {:.6g}); "
+          "accepted: one number per triangle, as of groups of surfaces",
+          kappa, other, x(0), x(1)));
   }
   return kappa;
 }
@@ -143,7 +152,8 @@ struct TractionOn {
     mean = weights.dot(values);
     moment = weights.dot((values.array() * odd).matrix());
     const Eigen::ArrayXd off = values.array() - mean - 12 * moment * odd;
-    rest = std::sqrt(mesh.edge_length(mesh.triangle_edges(t, i)) * weights.dot(off.square().matrix()));
+    rest =
+        std::sqrt(mesh.edge_length(mesh.triangle_edges(t, i)) * weights.dot(off.square().matrix()));
   }
 };
 
@@ -157,7 +167,8 @@ struct LoadOn {
     for (Eigen::Index q = 0; q < values.size(); ++q) {
       const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
       values(q) = load(x(0), x(1));
-      if (!std::isfinite(values(q))) throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0), x(1)));
+      if (!std::isfinite(values(q)))
+        throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0), x(1)));
     }
     mean_lambda = rule.points.transpose() * rule.weights.cwiseProduct(values);
     f = (12 * mean_lambda.array() - 3 * mean_lambda.sum()).matrix();
@@ -186,13 +197,15 @@ double mean_gap(const Profile& gap, double from, double to) {
 
 double longest_edge(const TriangleMesh& mesh, int t) {
   double longest = 0;
-  for (int i = 0; i < 3; ++i) longest = std::max(longest, mesh.edge_length(mesh.triangle_edges(t, i)));
+  for (int i = 0; i < 3; ++i)
+    longest = std::max(longest, mesh.edge_length(mesh.triangle_edges(t, i)));
   return longest;
 }
 
 /// Throws unless the residual by the forms of the problem is `ours`, that of the scene: else the
 /// two are not one question.
-void check_same_question(const VariationalInequality& problem, const Solution& solution, const Eigen::VectorXd& ours) {
+void check_same_question(const VariationalInequality& problem, const Solution& solution,
+                         const Eigen::VectorXd& ours) {
   Eigen::VectorXd theirs = problem.a1 * solution.u;
   double size = problem.a1.diagonal().cwiseAbs().maxCoeff() * solution.u.lpNorm<Eigen::Infinity>() +
                 problem.load.lpNorm<Eigen::Infinity>();
@@ -203,10 +216,10 @@ void check_same_question(const VariationalInequality& problem, const Solution& s
   }
   const double off = (ours - theirs + problem.load).lpNorm<Eigen::Infinity>();
   if (off > 1e-10 * size)
-    throw Error(
-        fmt::format("certificate: the problem is not the scene's on this space: its forces differ by {:.1e} of "
-                    "the largest; accepted: what assemble(scene, space) makes, its load above all",
-                    off / size));
+    throw Error(fmt::format(
+        "certificate: the problem is not the scene's on this space: its forces differ by {:.1e} of "
+        "the largest; accepted: what assemble(scene, space) makes, its load above all",
+        off / size));
 }
 
 /// A of the layer.
@@ -233,7 +246,8 @@ class FluxBuilder {
   /// Computes S_h, tau and the oscillation of each triangle, and the residual r.
   EquilibratedFlux flux(const VariationalInequality& problem) {
     for (int t = 0; t < mesh_.triangle_count(); ++t) add_triangle(t);
-    for (int k = 0; k < static_cast<int>(scene_.edges().size()); ++k) add_usual_traction(natural_group(k));
+    for (int k = 0; k < static_cast<int>(scene_.edges().size()); ++k)
+      add_usual_traction(natural_group(k));
     check_same_question(problem, solution_, assembled_);
     flux_.residual = assembled_ - finer_;
     return std::move(flux_);
@@ -250,8 +264,9 @@ class FluxBuilder {
       add_layer_flux(here, gradient);
     else
       add_body_flux(t, gradient);
-    flux_.norm2 += area * here.law.squared(here.s) + here.tau2;                              // tau has mean zero on T
-    for (int i = 0; i < 3; ++i) assembled_(dof(i)) -= 2 * area * here.s.dot(lambda.row(i));  // grad phi_i
+    flux_.norm2 += area * here.law.squared(here.s) + here.tau2;  // tau has mean zero on T
+    for (int i = 0; i < 3; ++i)
+      assembled_(dof(i)) -= 2 * area * here.s.dot(lambda.row(i));  // grad phi_i
   }
 
   void add_layer_flux(FluxCell& here, const Eigen::Vector2d& gradient) {
@@ -358,7 +373,8 @@ void add_contact_forces(EquilibratedFlux& flux, const Scene& scene, const Triang
 double dual_energy(const EquilibratedFlux& flux, const VariationalInequality& problem) {
   double energy = -flux.norm2 / 2 - flux.lambda.dot(flux.gap);
   for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
-    energy += flux.residual(problem.dirichlet_dofs[i]) * problem.dirichlet_values(static_cast<Eigen::Index>(i));
+    energy += flux.residual(problem.dirichlet_dofs[i]) *
+              problem.dirichlet_values(static_cast<Eigen::Index>(i));
   return energy;
 }
 
@@ -366,9 +382,11 @@ double dual_energy(const EquilibratedFlux& flux, const VariationalInequality& pr
 
 // sum_i f_i lambda_i (x - P_i) = f_1 x - sum_i f_i lambda_i P_i; the mean of f x is sum_i mean(f
 // lambda_i) P_i
-Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Eigen::MatrixX3d& barycentric) const {
+Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t,
+                                       const Eigen::MatrixX3d& barycentric) const {
   const FluxCell& here = cell[t];
-  const Eigen::Matrix<double, 3, 2> corner = mesh.vertices(mesh.triangles.row(t), Eigen::indexing::all);
+  const Eigen::Matrix<double, 3, 2> corner =
+      mesh.vertices(mesh.triangles.row(t), Eigen::indexing::all);
   const Eigen::Matrix<double, 3, 2> weighted = here.f.asDiagonal() * corner;
   const double mean = here.f.mean();
   const Eigen::RowVector2d constant =
@@ -384,8 +402,9 @@ Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Ei
   for (int i = 0; i < 3; ++i) {  // grad (lambda_j lambda_k) less its mean, turned
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;
-    const Eigen::MatrixX2d slope = (barycentric.col(j).array() - 1.0 / 3).matrix() * gradient.row(k) +
-                                   (barycentric.col(k).array() - 1.0 / 3).matrix() * gradient.row(j);
+    const Eigen::MatrixX2d slope =
+        (barycentric.col(j).array() - 1.0 / 3).matrix() * gradient.row(k) +
+        (barycentric.col(k).array() - 1.0 / 3).matrix() * gradient.row(j);
     tau.col(0) += here.traction(i) * slope.col(1);
     tau.col(1) -= here.traction(i) * slope.col(0);
   }
@@ -394,7 +413,8 @@ Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Ei
 
 EquilibratedFlux equilibrated_flux(const Scene& scene, const Result& result) {
   const VariationalInequality& problem = result.problem;
-  if ((problem.fixed_compliances.array() > 0).any()) return equilibrated_flux(scene, assemble_fixed_rows(result));
+  if ((problem.fixed_compliances.array() > 0).any())
+    return equilibrated_flux(scene, assemble_fixed_rows(result));
   check_scene(scene, result);
   check_solution(scene, result);
   check_boundary(scene, result.space, problem);

@@ -16,7 +16,9 @@ struct FluxLaw {
   double x = 1, y = 1;   ///< 1 / stiffness; y = epsilon^2 / s in the scaled layer
 
   /// Returns |flux|^2.
-  double squared(const Eigen::Vector2d& flux) const { return x * flux(0) * flux(0) + y * flux(1) * flux(1); }
+  double squared(const Eigen::Vector2d& flux) const {
+    return x * flux(0) * flux(0) + y * flux(1) * flux(1);
+  }
 };
 
 /// The flux sigma = s + tau on one triangle. s is the flux of Crouzeix-Raviart, and tau is the

@@ -6,8 +6,8 @@
 
 namespace antilock {
 
-ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const ConformingCompanion& v,
-                         const ExactTable& exact_solution) {
+ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux,
+                         const ConformingCompanion& v, const ExactTable& exact_solution) {
   const Quadrature& rule = triangle_rule(8);
   double cr = 0, balanced = 0, conforming = 0, middle = 0;
   const auto exact = [&](const Eigen::Vector2d& x, bool layer) {
@@ -23,7 +23,8 @@ ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux,
     const Eigen::MatrixX2d tau = flux.tau(mesh, t, rule.points);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const double w = mesh.area(t) * rule.weights(q);
-      const Eigen::Vector2d u = exact(point_in(mesh, t, rule.points.row(q)), layer), sigma = s + tau.row(q).transpose();
+      const Eigen::Vector2d u = exact(point_in(mesh, t, rule.points.row(q)), layer),
+                            sigma = s + tau.row(q).transpose();
       cr += w * law.squared(u - s);
       balanced += w * law.squared(u - sigma);
       if (columns) continue;
@@ -36,11 +37,12 @@ ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux,
     for (int t = v.layer->first_triangle(); t < columns.triangle_count(); ++t)
       for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
         const Eigen::Vector2d u = exact(point_in(columns, t, rule.points.row(q)), true);
-        conforming +=
-            columns.area(t) * rule.weights(q) * flux.law.squared(u - v.layer->flux_of(t - v.layer->first_triangle()));
+        conforming += columns.area(t) * rule.weights(q) *
+                      flux.law.squared(u - v.layer->flux_of(t - v.layer->first_triangle()));
       }
   }
-  return {std::sqrt(cr), std::sqrt(balanced), std::sqrt(conforming), v.layer ? 0 : std::sqrt(middle)};
+  return {std::sqrt(cr), std::sqrt(balanced), std::sqrt(conforming),
+          v.layer ? 0 : std::sqrt(middle)};
 }
 
 }  // namespace antilock

@@ -16,7 +16,7 @@ struct ExactErrors {
   double stress = 0;
 };
 
-ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const ConformingCompanion& v,
-                         const ExactTable& exact);
+ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux,
+                         const ConformingCompanion& v, const ExactTable& exact);
 
 }  // namespace antilock

@@ -25,12 +25,14 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
-  throw Error(fmt::format("{}: cannot be written: {}; accepted: a path in a folder that can be written", path.string(),
-                          reason));
+  throw Error(
+      fmt::format("{}: cannot be written: {}; accepted: a path in a folder that can be written",
+                  path.string(), reason));
 }
 
 [[noreturn]] void refuse_folder(const fs::path& folder, const std::string& reason) {
-  throw Error(fmt::format("{}: {}; accepted: a folder that can be made and written", folder.string(), reason));
+  throw Error(fmt::format("{}: {}; accepted: a folder that can be made and written",
+                          folder.string(), reason));
 }
 
 /// The folder itself, or the nearest one above it that exists.
@@ -52,14 +54,15 @@ void stop_if_interrupted() {
   if (waiting != 0) throw Error("interrupted while writing; nothing is written");
 }
 
-/// Signals whose handler is `from` get the handler `to`; those that the program handles or ignores are its own
-/// business.
+/// Signals whose handler is `from` get the handler `to`; those that the program handles or ignores
+/// are its own business.
 void change_handlers(void (*from)(int), void (*to)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction now = {}, then = {};
     then.sa_handler = to;
     ::sigaction(signal, nullptr, &now);
-    if ((now.sa_flags & SA_SIGINFO) == 0 && now.sa_handler == from) ::sigaction(signal, &then, nullptr);
+    if ((now.sa_flags & SA_SIGINFO) == 0 && now.sa_handler == from)
+      ::sigaction(signal, &then, nullptr);
   }
 }
 
@@ -110,11 +113,13 @@ void write_through_draft(const fs::path& folder, const std::function<void(const 
   stop_if_interrupted();
   fs::create_directories(folder);
   // unlocked before it is closed: closing alone would leave the lock to a process forked meanwhile
-  const std::unique_ptr<DIR, void (*)(DIR*)> placing(known ? ::opendir(folder.c_str()) : nullptr, [](DIR* open) {
-    ::flock(::dirfd(open), LOCK_UN);
-    ::closedir(open);
-  });
-  while (placing && ::flock(::dirfd(placing.get()), LOCK_EX) != 0 && errno == EINTR) stop_if_interrupted();
+  const std::unique_ptr<DIR, void (*)(DIR*)> placing(known ? ::opendir(folder.c_str()) : nullptr,
+                                                     [](DIR* open) {
+                                                       ::flock(::dirfd(open), LOCK_UN);
+                                                       ::closedir(open);
+                                                     });
+  while (placing && ::flock(::dirfd(placing.get()), LOCK_EX) != 0 && errno == EINTR)
+    stop_if_interrupted();
   std::set<std::string> names;
   for (const auto& file : fs::directory_iterator(draft.path)) names.insert(file.path().filename());
   std::set<std::string> touched = names;
@@ -135,10 +140,12 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
   std::error_code error;
   if (fs::is_directory(path, error)) refuse(path, "it is a folder");
   // a rename would put a plain file in its place
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse(path, "it is a device, a pipe or a socket");
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    refuse(path, "it is a device, a pipe or a socket");
 
   const auto check = [&](const std::ofstream& out) {
-    if (!out) refuse(path, errno == 0 ? "the stream failed" : std::generic_category().message(errno));
+    if (!out)
+      refuse(path, errno == 0 ? "the stream failed" : std::generic_category().message(errno));
   };
   const auto fill = [&](const fs::path& draft) {
     errno = 0;
@@ -158,18 +165,21 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
 
 void check_not_an_input(const fs::path& path, const std::vector<fs::path>& inputs) {
   for (const fs::path& input : inputs)
-    if (std::error_code absent; !path.empty() && !input.empty() && fs::equivalent(path, input, absent))
+    if (std::error_code absent;
+        !path.empty() && !input.empty() && fs::equivalent(path, input, absent))
       throw Error(fmt::format("{}: would replace {}, which is read; accepted: another file",
                               printable(path.string(), 1000), printable(input.string(), 1000)));
 }
 
 void check_folder(const fs::path& folder) {
   if (folder.empty())
-    throw Error("the results folder has an empty name; accepted: a folder that can be made and written");
+    throw Error(
+        "the results folder has an empty name; accepted: a folder that can be made and written");
   try {
     const fs::path part = existing_part(folder);
     if (!fs::is_directory(part)) refuse_folder(folder, part.string() + " is no folder");
-    if (::access(part.c_str(), W_OK | X_OK) != 0) refuse_folder(folder, part.string() + " cannot be written");
+    if (::access(part.c_str(), W_OK | X_OK) != 0)
+      refuse_folder(folder, part.string() + " cannot be written");
   } catch (const fs::filesystem_error& error) {
     refuse_folder(folder, error.code().message());
   }

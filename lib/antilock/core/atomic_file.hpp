@@ -21,7 +21,8 @@ void write_file(const std::filesystem::path& path, const std::function<void(std:
 
 /// Throws Error where writing `path` would replace one of the inputs, under any name. An empty path
 /// names no file.
-void check_not_an_input(const std::filesystem::path& path, const std::vector<std::filesystem::path>& inputs);
+void check_not_an_input(const std::filesystem::path& path,
+                        const std::vector<std::filesystem::path>& inputs);
 
 /// Throws Error where `folder` could not be made or written. It is called before a long
 /// computation, so that no work is lost. It changes nothing.
@@ -32,7 +33,8 @@ void check_folder(const std::filesystem::path& folder);
 /// in one folder, if its file system has locks (NFS may not). Files of an earlier result are
 /// removed if their names are in `known` and the new result does not have them. Throws Error, and
 /// leaves nothing behind, where anything fails before the first file is in place.
-void write_folder(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& write,
+void write_folder(const std::filesystem::path& folder,
+                  const std::function<void(const std::filesystem::path&)>& write,
                   const std::vector<std::string>& known = {});
 
 }  // namespace antilock

@@ -16,10 +16,13 @@ Cholesky::Cholesky(MatrixXd s) : l_(std::move(s)) {
   positive_definite_ = in_place.info() == Eigen::Success && l_.diagonal().allFinite();
 }
 
-VectorXd Cholesky::forward(const VectorXd& right) const { return l_.triangularView<Eigen::Lower>().solve(right); }
+VectorXd Cholesky::forward(const VectorXd& right) const {
+  return l_.triangularView<Eigen::Lower>().solve(right);
+}
 MatrixXd Cholesky::forward(const MatrixXd& right) const {
   if (right.cols() == 0)
-    return right;  // Eigen refers to the first entry, here and in solve, whether there is one or not
+    return right;  // Eigen refers to the first entry, here and in solve, whether there is one or
+                   // not
   return l_.triangularView<Eigen::Lower>().solve(right);
 }
 
@@ -47,7 +50,8 @@ VectorXd symmetric_eigenvalues(const MatrixXd& matrix) {
 
 VectorXd generalised_eigenvalues(const MatrixXd& a, const MatrixXd& b) {
   const Cholesky factor(b);  // L^-1 A L^-T has them
-  if (!factor.positive_definite()) throw Error("eigenvalues of A x = s B x: B is not positive definite");
+  if (!factor.positive_definite())
+    throw Error("eigenvalues of A x = s B x: B is not positive definite");
   const MatrixXd half = factor.forward(MatrixXd(a.selfadjointView<Eigen::Lower>()));
   return symmetric_eigenvalues(factor.forward(MatrixXd(half.transpose())));
 }

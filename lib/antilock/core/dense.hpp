@@ -44,7 +44,8 @@ Eigen::VectorXd generalised_eigenvalues(const Eigen::MatrixXd& a, const Eigen::M
 
 /// Returns the shortest x that minimises |matrix x - right|, by the complete orthogonal
 /// decomposition. Pivots below `threshold` times the largest one count as zero.
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right, double threshold);
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
+                              double threshold);
 /// Returns the inverse of Moore and Penrose (n x m) of a matrix (m x n), by the same decomposition
 /// with Eigen's threshold.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);

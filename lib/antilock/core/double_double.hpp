@@ -36,7 +36,8 @@ struct DoubleDoubleVector {
   Eigen::VectorXd high, low;
 
   DoubleDoubleVector() = default;
-  DoubleDoubleVector(Eigen::VectorXd x) : high(std::move(x)), low(Eigen::VectorXd::Zero(high.size())) {}
+  DoubleDoubleVector(Eigen::VectorXd x)
+      : high(std::move(x)), low(Eigen::VectorXd::Zero(high.size())) {}
   Eigen::Index size() const { return high.size(); }
   DoubleDouble operator()(Eigen::Index i) const { return {high(i), low(i)}; }
   void set(Eigen::Index i, double x) { high(i) = x, low(i) = 0; }

@@ -7,12 +7,13 @@
 // side ends in a crash. This header makes both the same in every file: memory comes from the
 // system's malloc, aligned to 16 bytes. CMake's target antilock::antilock has the two definitions.
 // A user who compiles without CMake must define them.
-static_assert(
-    EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MAX_STATIC_ALIGN_BYTES == 16
-#ifndef EIGEN_HEAP_ALIGN_BYTES  // else Debian's Eigen 5, whose allocator is the same for every instruction set
-        && EIGEN_MALLOC_ALREADY_ALIGNED == 1
+// Debian's Eigen 5 defines EIGEN_HEAP_ALIGN_BYTES. Its allocator is the same for every instruction
+// set and ignores the second definition.
+static_assert(EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MAX_STATIC_ALIGN_BYTES == 16
+#ifndef EIGEN_HEAP_ALIGN_BYTES
+                  && EIGEN_MALLOC_ALREADY_ALIGNED == 1
 #endif
-    ,
-    "antilock: this file is compiled with another memory layout of Eigen than the library, which would crash; "
-    "add -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1, as the CMake target "
-    "antilock::antilock does");
+              ,
+              "antilock: this file is compiled with another memory layout of Eigen than the "
+              "library, which would crash; add -DEIGEN_MAX_ALIGN_BYTES=16 "
+              "-DEIGEN_MALLOC_ALREADY_ALIGNED=1, as the CMake target antilock::antilock does");

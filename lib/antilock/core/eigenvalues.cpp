@@ -27,8 +27,8 @@ struct Operator {
   }
 };
 
-/// The size of the matrix as one vector sees it: 0 for none but the zero matrix, in practice. Of a single unknown the
-/// eigenvalue itself.
+/// The size of the matrix as one vector sees it: 0 for none but the zero matrix, in practice. Of a
+/// single unknown the eigenvalue itself.
 double size_of(const Apply& apply, Eigen::Index size) {
   Eigen::VectorXd wave = Eigen::VectorXd::Ones(size);
   for (Eigen::Index i = 1; i < size; ++i) wave(i) = std::sin(1.0 + 2.0 * static_cast<double>(i));
@@ -57,11 +57,15 @@ Eigenpair largest_eigenpair(const Apply& apply, Eigen::Index size, double tolera
     solver.init();
     solver.compute(Spectra::SortRule::LargestAlge, most_restarts, tolerance);
   } catch (const std::runtime_error& failure) {
-    throw NotConverged(fmt::format("largest eigenvalue: the Lanczos iteration broke down ({})", failure.what()), 1, 0);
+    throw NotConverged(
+        fmt::format("largest eigenvalue: the Lanczos iteration broke down ({})", failure.what()), 1,
+        0);
   }
   if (solver.info() != Spectra::CompInfo::Successful)
-    throw NotConverged(fmt::format("largest eigenvalue: the Lanczos iteration has not settled to {:.0e}", tolerance), 1,
-                       static_cast<int>(solver.num_iterations()));
+    throw NotConverged(
+        fmt::format("largest eigenvalue: the Lanczos iteration has not settled to {:.0e}",
+                    tolerance),
+        1, static_cast<int>(solver.num_iterations()));
   return {unit * solver.eigenvalues()(0), solver.eigenvectors(1).col(0)};
 }
 

@@ -24,8 +24,10 @@ struct Eigenpair {
 /// spectrum. Each step of the iteration takes one product, and there are at least min(size,
 /// `basis`) steps. Throws Error for size = 0, and NotConverged where the iteration does not
 /// converge.
-Eigenpair largest_eigenpair(const Apply& apply, Eigen::Index size, double tolerance = 1e-6, int basis = 30);
-inline double largest_eigenvalue(const Apply& apply, Eigen::Index size, double tolerance = 1e-6, int basis = 30) {
+Eigenpair largest_eigenpair(const Apply& apply, Eigen::Index size, double tolerance = 1e-6,
+                            int basis = 30);
+inline double largest_eigenvalue(const Apply& apply, Eigen::Index size, double tolerance = 1e-6,
+                                 int basis = 30) {
   return largest_eigenpair(apply, size, tolerance, basis).value;
 }
 

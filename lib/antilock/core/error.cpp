@@ -34,10 +34,13 @@ CodePoint first_code_point(std::string_view text) {
 
 /// Whether a terminal shows the character in its place on the line.
 bool stays_on_the_line(char32_t value) {
-  const auto in = [value](char32_t first, char32_t last) { return first <= value && value <= last; };
+  const auto in = [value](char32_t first, char32_t last) {
+    return first <= value && value <= last;
+  };
   const bool control = value < 0x20 || in(0x7f, 0x9f);
   const bool separator = in(0x2028, 0x2029);
-  const bool direction = in(0x200e, 0x200f) || in(0x202a, 0x202e) || in(0x2066, 0x2069) || value == 0x061c;
+  const bool direction =
+      in(0x200e, 0x200f) || in(0x202a, 0x202e) || in(0x2066, 0x2069) || value == 0x061c;
   const bool no_character = value == 0xfeff || in(0xfff9, 0xfffb) || (value & 0xfffe) == 0xfffe;
   return !control && !separator && !direction && !no_character;
 }

@@ -27,7 +27,8 @@ void require_memory(std::size_t bytes, const std::string& what);
 /// version 2, or the memory controller of version 1. Files that the kernel keeps in memory count as
 /// free. The result is empty where there is no limit. `groups` is /sys/fs/cgroup, `own` is
 /// /proc/self/cgroup.
-std::optional<double> left_by_control_groups(const std::filesystem::path& groups, const std::filesystem::path& own);
+std::optional<double> left_by_control_groups(const std::filesystem::path& groups,
+                                             const std::filesystem::path& own);
 
 /// While an object of this class exists, its thread may call the BLAS. OpenBLAS maps a buffer of at
 /// most 128 MB for each simultaneous thread, at the first call. If this fails, it tries again

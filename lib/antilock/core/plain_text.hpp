@@ -12,8 +12,11 @@ namespace antilock {
 /// since the first character of a text file is in ASCII.
 inline std::string_view plain_text(std::string_view text, const std::string& name) {
   if (text.starts_with("\xef\xbb\xbf")) return text.substr(3);
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.substr(0, 2).find('\0') != text.npos)
-    throw Error(name + ": is text in UTF-16 or UTF-32; accepted: UTF-8 or ASCII (save it again with that encoding)");
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
+      text.substr(0, 2).find('\0') != text.npos)
+    throw Error(name +
+                ": is text in UTF-16 or UTF-32; accepted: UTF-8 or ASCII (save it again with that "
+                "encoding)");
   return text;
 }
 

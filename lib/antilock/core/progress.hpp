@@ -26,11 +26,13 @@ struct Interrupted : NotConverged {
 
 /// Calls the hook, if there is one. Throws Interrupted, with the progress of `who` in its message,
 /// if the hook returns false.
-inline void notify_or_throw(const ProgressHook& hook, const Progress& progress, const std::string& who) {
+inline void notify_or_throw(const ProgressHook& hook, const Progress& progress,
+                            const std::string& who) {
   if (!hook || hook(progress)) return;
   throw Interrupted(
-      fmt::format("{}: stopped as asked after {} steps of {}: relative error about {:.0e}, asked for {:.0e}", who,
-                  progress.step, progress.stage, progress.error, progress.tolerance),
+      fmt::format("{}: stopped as asked after {} steps of {}: relative error about {:.0e}, asked "
+                  "for {:.0e}",
+                  who, progress.step, progress.stage, progress.error, progress.tolerance),
       progress.error, progress.step);
 }
 

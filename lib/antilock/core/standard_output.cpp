@@ -15,8 +15,10 @@ void require_output() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   // an earlier flush that failed left its mark, and no longer its reason
-  const std::string why = errno == 0 ? "what was printed did not arrive" : std::generic_category().message(errno);
-  throw Error("standard output: " + why + "; accepted: a file, terminal or pipe that takes all of it");
+  const std::string why =
+      errno == 0 ? "what was printed did not arrive" : std::generic_category().message(errno);
+  throw Error("standard output: " + why +
+              "; accepted: a file, terminal or pipe that takes all of it");
 }
 
 int delivered(int status, const std::string& program) {
@@ -33,7 +35,8 @@ int delivered(int status, const std::string& program) {
 void open_standard_streams() {
   for (const int stream : {0, 1, 2}) {
     if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
-    const int opened = ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);  // the lowest number that is free
+    const int opened =
+        ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);  // the lowest number that is free
     if (opened != stream) return;
   }
 }

@@ -12,7 +12,8 @@
 namespace antilock::distributed {
 namespace {
 
-constexpr double inner = 1e-4;   // conjugate gradients: what they leave of a correction, in the energy norm
+constexpr double inner =
+    1e-4;  // conjugate gradients: what they leave of a correction, in the energy norm
 constexpr int most_sets = 2000;  // contact sets tried
 
 double largest_entry(Vec v) {
@@ -39,7 +40,8 @@ class HeldSystem {
   /// side.
   void hold(const std::vector<PetscInt>& rows, Vec jump, Vec rhs) {
     ok(MatCopy(problem_.k(), held_, SAME_NONZERO_PATTERN));
-    ok(MatZeroRowsColumns(held_, static_cast<PetscInt>(rows.size()), rows.data(), 1 / problem_.delta(), jump, rhs));
+    ok(MatZeroRowsColumns(held_, static_cast<PetscInt>(rows.size()), rows.data(),
+                          1 / problem_.delta(), jump, rhs));
     ok(KSPSetOperators(solver_, held_, held_));
   }
   void set_up() { ok(KSPSetUp(solver_)); }
@@ -70,9 +72,11 @@ class HeldSystem {
     if (reason < 0) {
       PetscReal left = 0;
       ok(KSPGetResidualNorm(solver_, &left));
-      throw NotConverged(fmt::format("petsc: conjugate gradients gave up after {} iterations ({}), residual {:.1e}",
-                                     iterations, KSPConvergedReasons[reason], left),
-                         left, static_cast<int>(iterations));
+      throw NotConverged(
+          fmt::format(
+              "petsc: conjugate gradients gave up after {} iterations ({}), residual {:.1e}",
+              iterations, KSPConvergedReasons[reason], left),
+          left, static_cast<int>(iterations));
     }
     return static_cast<int>(iterations);
   }
@@ -180,7 +184,8 @@ class ContactLoop {
     const double reached = step > 0 ? report_.change : 1;
     const Progress now{"corrections", step, reached, options_.tolerance};
     const bool stop = options_.progress && !options_.progress(now);
-    if (largest(stop ? 1 : 0) > 0) antilock::notify_or_throw([](const Progress&) { return false; }, now, "petsc");
+    if (largest(stop ? 1 : 0) > 0)
+      antilock::notify_or_throw([](const Progress&) { return false; }, now, "petsc");
   }
 
   bool is_settled(const ContactStep& set) const {
@@ -189,11 +194,14 @@ class ContactLoop {
 
   void require_progress(const ContactStep& set, int step, int since_change) const {
     const bool finite = std::isfinite(set.scale + set.unbalanced);
-    if (finite && since_change <= options_.max_corrections && report_.set_changes <= most_sets) return;
+    if (finite && since_change <= options_.max_corrections && report_.set_changes <= most_sets)
+      return;
     throw NotConverged(
-        fmt::format("petsc: relative change {:.1e} and residual {:.1e} after {} corrections and {} contact "
-                    "sets, asked for {:.1e} and {:.1e}",
-                    report_.change, set.unbalanced, step, report_.set_changes, options_.tolerance, options_.residual),
+        fmt::format(
+            "petsc: relative change {:.1e} and residual {:.1e} after {} corrections and {} contact "
+            "sets, asked for {:.1e} and {:.1e}",
+            report_.change, set.unbalanced, step, report_.set_changes, options_.tolerance,
+            options_.residual),
         std::max(report_.change, set.unbalanced), step);
   }
 
@@ -255,11 +263,13 @@ class ContactLoop {
 }  // namespace
 
 State zero_state(const DistributedProblem& problem) {
-  return {Eigen::VectorXd::Zero(problem.part().size()), Eigen::VectorXd::Zero(problem.part().m.size()),
+  return {Eigen::VectorXd::Zero(problem.part().size()),
+          Eigen::VectorXd::Zero(problem.part().m.size()),
           std::vector<char>(problem.rows().owned(), 0)};
 }
 
-LoopReport contact_loop(const DistributedProblem& problem, State& state, const LoopOptions& options) {
+LoopReport contact_loop(const DistributedProblem& problem, State& state,
+                        const LoopOptions& options) {
   ContactLoop loop(problem, state, options);
   const std::clock_t before = std::clock();
   LoopReport report = loop.run();

@@ -62,6 +62,7 @@ struct LoopReport {
 ///
 /// Every rank must call it. Throws on every rank: NotConverged where it does not converge, and
 /// Interrupted where the progress hook returns false.
-LoopReport contact_loop(const DistributedProblem& problem, State& state, const LoopOptions& options = {});
+LoopReport contact_loop(const DistributedProblem& problem, State& state,
+                        const LoopOptions& options = {});
 
 }  // namespace antilock::distributed

@@ -21,7 +21,8 @@ Eigen::VectorXd summed(const DofMap& rows, const Eigen::VectorXd& part) {
 /// The parts of the report, summed over the ranks, per owned row.
 KktParts summed_parts(const DistributedProblem& problem, const State& state) {
   KktParts parts = kkt_parts(problem.part(), state.u, state.p);
-  for (Eigen::VectorXd* part : {&parts.r1, &parts.terms, &parts.stiffness}) *part = summed(problem.rows(), *part);
+  for (Eigen::VectorXd* part : {&parts.r1, &parts.terms, &parts.stiffness})
+    *part = summed(problem.rows(), *part);
   return parts;
 }
 
@@ -34,14 +35,15 @@ std::vector<char> clamped_rows(const DofMap& rows) {
 
 /// Adds gap, pressure and complementarity of all bounds, over all ranks. `reach` and `forces` are
 /// those of add_bound.
-void add_bounds(Kkt& kkt, const DistributedProblem& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& lambda,
-                double reach, const Eigen::VectorXd& forces) {
+void add_bounds(Kkt& kkt, const DistributedProblem& problem, const Eigen::VectorXd& u,
+                const Eigen::VectorXd& lambda, double reach, const Eigen::VectorXd& forces) {
   const DofMap& rows = problem.rows();
   const BoundLimits bounds(problem.lower());
   kkt.min_gap = std::numeric_limits<double>::infinity();
   kkt.min_pressure = std::numeric_limits<double>::infinity();
   for (int i = 0; i < rows.owned(); ++i)
-    if (std::isfinite(problem.lower()(i))) add_bound(kkt, bounds, i, u(rows.unknown(i)), lambda(i), reach, forces(i));
+    if (std::isfinite(problem.lower()(i)))
+      add_bound(kkt, bounds, i, u(rows.unknown(i)), lambda(i), reach, forces(i));
   kkt.complementarity = largest(kkt.complementarity);
   kkt.min_gap = -largest(-kkt.min_gap);
   kkt.min_pressure = -largest(-kkt.min_pressure);
@@ -82,13 +84,15 @@ Kkt kkt_report(const DistributedProblem& problem, const State& state) {
   force = largest(force);
   reaction = largest(reaction);
   const double largest_u = largest(u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0);
-  const Eigen::VectorXd forces = add_equations(kkt, parts, clamped, largest_u, force, std::max(force, reaction));
+  const Eigen::VectorXd forces =
+      add_equations(kkt, parts, clamped, largest_u, force, std::max(force, reaction));
   kkt.residual = largest(kkt.residual);
   add_bounds(kkt, problem, u, lambda, largest_u, forces);
   return kkt;
 }
 
-Kkt certified(const DistributedProblem& problem, const State& state, double tolerance, std::string& warning) {
+Kkt certified(const DistributedProblem& problem, const State& state, double tolerance,
+              std::string& warning) {
   Solution result;
   result.solver = "petsc";
   result.kkt = kkt_report(problem, state);

@@ -15,6 +15,7 @@ Kkt kkt_report(const DistributedProblem& problem, const State& state);
 /// Returns this report. Throws NotConverged, on every rank, where the worst violation is above
 /// max(KktTolerances::fail, 10 tolerance). `warning` is empty, or says how far the violation is
 /// above KktTolerances::warn.
-Kkt certified(const DistributedProblem& problem, const State& state, double tolerance, std::string& warning);
+Kkt certified(const DistributedProblem& problem, const State& state, double tolerance,
+              std::string& warning);
 
 }  // namespace antilock::distributed

@@ -21,13 +21,15 @@ constexpr int smoothings = 6;
 
 void check_question(const Scene& scene, const Element& element) {
   if (element.degree() != 1)
-    throw Error("element: \"" + element.name() + "\" is not accepted by petsc; accepted \"P1\" and \"CR\"");
+    throw Error("element: \"" + element.name() +
+                "\" is not accepted by petsc; accepted \"P1\" and \"CR\"");
   if (std::holds_alternative<VentcelLayer>(scene.layer()))
-    throw Error("layer.model: \"ventcel\" is not accepted by petsc; accepted \"scaled\" and \"thin\"");
+    throw Error(
+        "layer.model: \"ventcel\" is not accepted by petsc; accepted \"scaled\" and \"thin\"");
 }
 
-/// The corners of child i of a triangle in the barycentric coordinates of its parent (partition.hpp's order): the
-/// midpoints of the edges, or corner i and the midpoints beside it.
+/// The corners of child i of a triangle in the barycentric coordinates of its parent
+/// (partition.hpp's order): the midpoints of the edges, or corner i and the midpoints beside it.
 Eigen::Matrix3d corners_of_child(int i) {
   Eigen::Matrix3d corners = 0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity());
   for (int k = 0; k < 3 && i < 3; ++k)
@@ -39,7 +41,8 @@ Eigen::Matrix3d corners_of_child(int i) {
 
 bool ContactSet::at(double where) const {
   if (x.empty()) return false;
-  const double slack = 1e-9 * (x.back() - x.front());  // a point of both meshes stands between itself and itself
+  const double slack =
+      1e-9 * (x.back() - x.front());  // a point of both meshes stands between itself and itself
   const auto right = std::lower_bound(x.begin(), x.end() - 1, where - slack) - x.begin();
   const auto left = std::upper_bound(x.begin() + 1, x.end(), where + slack) - x.begin() - 1;
   return active[left] != 0 && active[right] != 0;
@@ -52,7 +55,8 @@ ContactSet NestedLevel::contact_set() const {
   std::vector<double> mine;  // x, whether active
   for (int place = 0; place < problem.rows().owned(); ++place)
     if (std::isfinite(problem.lower()(place)))
-      mine.insert(mine.end(), {space.dof_coordinates()(problem.rows().unknown(place), 0), double(state.active[place])});
+      mine.insert(mine.end(), {space.dof_coordinates()(problem.rows().unknown(place), 0),
+                               double(state.active[place])});
   const std::vector<double> all = all_gather(mine);
   std::map<double, char> by_x;
   for (std::size_t i = 0; i < all.size(); i += 2) by_x[all[i]] = all[i + 1] != 0 ? 1 : 0;
@@ -66,9 +70,10 @@ ContactSet NestedLevel::contact_set() const {
 
 void NestedLevel::start_from(const ContactSet& set) {
   for (int place = 0; place < problem.rows().owned(); ++place)
-    state.active[place] =
-        std::isfinite(problem.lower()(place)) && set.at(space.dof_coordinates()(problem.rows().unknown(place), 0)) ? 1
-                                                                                                                   : 0;
+    state.active[place] = std::isfinite(problem.lower()(place)) &&
+                                  set.at(space.dof_coordinates()(problem.rows().unknown(place), 0))
+                              ? 1
+                              : 0;
 }
 
 void NestedLevel::start_from(const NestedLevel& coarse) {
@@ -79,25 +84,30 @@ void NestedLevel::start_from(const NestedLevel& coarse) {
     for (int k = 0; k < 3; ++k) values[i].row(k) = element.basis(nodes.row(k)).transpose();
   }
   for (Eigen::Index t = 0; t < space.cell_dofs().rows(); ++t) {
-    const Eigen::RowVector3i parent = coarse.space.cell_dofs().row(t / 4), child = space.cell_dofs().row(t);
-    const Eigen::Vector3d u(coarse.state.u(parent(0)), coarse.state.u(parent(1)), coarse.state.u(parent(2)));
+    const Eigen::RowVector3i parent = coarse.space.cell_dofs().row(t / 4),
+                             child = space.cell_dofs().row(t);
+    const Eigen::Vector3d u(coarse.state.u(parent(0)), coarse.state.u(parent(1)),
+                            coarse.state.u(parent(2)));
     const Eigen::Vector3d here = values[t % 4] * u;
     for (int k = 0; k < 3; ++k) state.u(child(k)) = here(k);
   }
-  // rows of B stand in the order of their triangles, and the children of one triangle follow each other
+  // rows of B stand in the order of their triangles, and the children of one triangle follow each
+  // other
   for (Eigen::Index r = 0; r < state.p.size(); ++r) state.p(r) = coarse.state.p(r / 4);
 }
 
-std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
-                                          const NestedOptions& options, NestedReport& report) {
+std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse,
+                                          const Element& element, const NestedOptions& options,
+                                          NestedReport& report) {
   Stopwatch watch;
   TriangleMesh subdomain;
   collectively([&] {
     check_question(scene, element);
-    subdomain = subdomain_of(
-        coarse,
-        options.partition ? options.partition(coarse, ranks()) : strip_partition(coarse, ranks(), options.loop.direct),
-        rank());
+    subdomain =
+        subdomain_of(coarse,
+                     options.partition ? options.partition(coarse, ranks())
+                                       : strip_partition(coarse, ranks(), options.loop.direct),
+                     rank());
   });
   watch.lap();
   const int first = std::max(0, std::min(options.first_level, options.refinements));

@@ -67,7 +67,8 @@ struct NestedReport {
 /// same exception on every rank: Error where the coarse mesh cannot be distributed or does not fit
 /// the scene, where a load or a gap is not finite, and where the element is neither P1 nor
 /// Crouzeix-Raviart, and NotConverged.
-std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
-                                          const NestedOptions& options, NestedReport& report);
+std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse,
+                                          const Element& element, const NestedOptions& options,
+                                          NestedReport& report);
 
 }  // namespace antilock::distributed

@@ -12,7 +12,8 @@ namespace {
 /// Abscissae that are meant to be the same are so near.
 double rounding(const TriangleMesh& mesh) { return 1e-9 * body_size(mesh); }
 
-/// The vertical lines of the layer, by x; without a layer, those of the contact edges; else those of all vertices.
+/// The vertical lines of the layer, by x; without a layer, those of the contact edges; else those
+/// of all vertices.
 std::vector<double> column_lines(const TriangleMesh& mesh) {
   std::vector<double> x;
   for (int e = 0; e < mesh.edge_count(); ++e)
@@ -20,7 +21,9 @@ std::vector<double> column_lines(const TriangleMesh& mesh) {
       for (int i = 0; i < 2; ++i) x.push_back(mesh.vertices(mesh.edges(e, i), 0));
   if (x.empty()) x.assign(mesh.vertices.col(0).begin(), mesh.vertices.col(0).end());
   std::sort(x.begin(), x.end());
-  x.erase(std::unique(x.begin(), x.end(), [off = rounding(mesh)](double a, double b) { return b - a < off; }), x.end());
+  x.erase(std::unique(x.begin(), x.end(),
+                      [off = rounding(mesh)](double a, double b) { return b - a < off; }),
+          x.end());
   return x;
 }
 
@@ -30,31 +33,34 @@ std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks, bool any_l
   const std::vector<double> lines = column_lines(mesh);
   const int columns = static_cast<int>(lines.size()) - 1;
   if (columns < ranks)
-    throw Error(
-        fmt::format("{} ranks for {} columns of the layer; accepted: a column or more per rank (start fewer "
-                    "ranks, or ask for more cells)",
-                    ranks, columns));
+    throw Error(fmt::format(
+        "{} ranks for {} columns of the layer; accepted: a column or more per rank (start fewer "
+        "ranks, or ask for more cells)",
+        ranks, columns));
   std::vector<int> column(mesh.triangle_count()), filled(columns, 0);
   const double off = rounding(mesh);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Vector3d x = mesh.vertices.col(0)(mesh.triangles.row(t));
-    const auto after = static_cast<int>(std::upper_bound(lines.begin(), lines.end(), x.mean()) - lines.begin());
+    const auto after =
+        static_cast<int>(std::upper_bound(lines.begin(), lines.end(), x.mean()) - lines.begin());
     column[t] = std::clamp(after - 1, 0, columns - 1);
     ++filled[column[t]];
     if (any_layer || mesh.region[t] != Region::layer) continue;
     const double left = lines[column[t]], right = lines[column[t] + 1];
     if (x.minCoeff() < left - off || x.maxCoeff() > right + off)
-      throw Error(
-          fmt::format("the layer's triangle at ({:.6g}, {:.6g}) crosses a vertical line through the vertices "
-                      "of the contact edges: the layer is not made of columns, and multigrid fails on it; "
-                      "accepted: kind = \"layered\" or \"structured\", or --direct (MUMPS)",
-                      x.mean(), mesh.vertices.col(1)(mesh.triangles.row(t)).mean()));
+      throw Error(fmt::format(
+          "the layer's triangle at ({:.6g}, {:.6g}) crosses a vertical line through the vertices "
+          "of the contact edges: the layer is not made of columns, and multigrid fails on it; "
+          "accepted: kind = \"layered\" or \"structured\", or --direct (MUMPS)",
+          x.mean(), mesh.vertices.col(1)(mesh.triangles.row(t)).mean()));
   }
-  // a strip ends at the column that brings the triangles up to its share, and leaves a column to each rank to come
+  // a strip ends at the column that brings the triangles up to its share, and leaves a column to
+  // each rank to come
   std::vector<int> rank_of(columns);
   long long before = 0;
   for (int c = 0, rank = 0, own = 0; c < columns; ++c) {
-    const bool full = (before + filled[c] / 2) * ranks >= static_cast<long long>(rank + 1) * mesh.triangle_count();
+    const bool full = (before + filled[c] / 2) * ranks >=
+                      static_cast<long long>(rank + 1) * mesh.triangle_count();
     const bool last_chance = columns - c == ranks - rank - 1;
     if (own > 0 && rank + 1 < ranks && (full || last_chance)) {
       ++rank;
@@ -83,11 +89,13 @@ TriangleMesh subdomain_of(const TriangleMesh& coarse, const std::vector<int>& ra
     vertices.push_back(v);
   }
   subdomain.vertices = coarse.vertices(vertices, Eigen::indexing::all);
-  subdomain.triangles = coarse.triangles(triangles, Eigen::indexing::all).unaryExpr([&](int v) { return number[v]; });
+  subdomain.triangles =
+      coarse.triangles(triangles, Eigen::indexing::all).unaryExpr([&](int v) { return number[v]; });
   number_edges(subdomain, "a subdomain of the mesh");
   for (int t = 0; t < subdomain.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i)
-      subdomain.edge_tag[subdomain.triangle_edges(t, i)] = coarse.edge_tag[coarse.triangle_edges(triangles[t], i)];
+      subdomain.edge_tag[subdomain.triangle_edges(t, i)] =
+          coarse.edge_tag[coarse.triangle_edges(triangles[t], i)];
   return subdomain;
 }
 
@@ -97,19 +105,24 @@ TriangleMesh refined_subdomain(const TriangleMesh& mesh) {
   cut.vertices.resize(corners + mesh.edge_count(), 2);
   cut.vertices.topRows(corners) = mesh.vertices;
   for (int e = 0; e < mesh.edge_count(); ++e)
-    cut.vertices.row(corners + e) = 0.5 * (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1)));
+    cut.vertices.row(corners + e) =
+        0.5 * (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1)));
   cut.triangles.resize(4 * mesh.triangles.rows(), 3);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Eigen::RowVector3i v = mesh.triangles.row(t), m = mesh.triangle_edges.row(t).array() + corners;
-    for (int i = 0; i < 3; ++i) cut.triangles.row(4 * t + i) << v(i), m((i + 2) % 3), m((i + 1) % 3);
+    const Eigen::RowVector3i v = mesh.triangles.row(t),
+                             m = mesh.triangle_edges.row(t).array() + corners;
+    for (int i = 0; i < 3; ++i)
+      cut.triangles.row(4 * t + i) << v(i), m((i + 2) % 3), m((i + 1) % 3);
     cut.triangles.row(4 * t + 3) = m;
     cut.region.insert(cut.region.end(), 4, mesh.region[t]);
   }
   number_edges(cut, "a subdomain of the mesh");
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i)  // the edges 1 and 2 of child i are halves of its parent's edges i + 1 and i + 2
+    for (int i = 0; i < 3;
+         ++i)  // the edges 1 and 2 of child i are halves of its parent's edges i + 1 and i + 2
       for (const int k : {1, 2})
-        cut.edge_tag[cut.triangle_edges(4 * t + i, k)] = mesh.edge_tag[mesh.triangle_edges(t, (i + k) % 3)];
+        cut.edge_tag[cut.triangle_edges(4 * t + i, k)] =
+            mesh.edge_tag[mesh.triangle_edges(t, (i + k) % 3)];
   return cut;
 }
 

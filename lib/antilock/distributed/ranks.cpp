@@ -15,15 +15,19 @@
 namespace antilock::distributed {
 namespace {
 
-/// Conjugate gradients with BoomerAMG: 2 to 5 iterations for four digits in the energy norm, whatever delta, on layers
-/// in columns. The interpolation FF1 is set up in 0.87 of the seconds of ext+i, for 13 iterations in place of 11 (2.1
-/// million unknowns, two ranks: 0.9 of the processor's seconds in all). One forward sweep of SOR down and one backward
-/// sweep up take half the time of symmetric sweeps on both ways, and as many iterations. MUMPS may take twice the
-/// memory that it estimates: its own 20 % more are not enough for the small first levels on three ranks.
+/// Conjugate gradients with BoomerAMG: 2 to 5 iterations for four digits in the energy norm,
+/// whatever delta, on layers in columns. The interpolation FF1 is set up in 0.87 of the seconds of
+/// ext+i, for 13 iterations in place of 11 (2.1 million unknowns, two ranks: 0.9 of the processor's
+/// seconds in all). One forward sweep of SOR down and one backward sweep up take half the time of
+/// symmetric sweeps on both ways, and as many iterations. MUMPS may take twice the memory that it
+/// estimates: its own 20 % more are not enough for the small first levels on three ranks.
 constexpr auto defaults =
-    "-no_signal_handler -ksp_type cg -ksp_norm_type natural -pc_type hypre -pc_hypre_type boomeramg "
-    "-pc_hypre_boomeramg_coarsen_type HMIS -pc_hypre_boomeramg_interp_type FF1 -pc_hypre_boomeramg_P_max 6 "
-    "-pc_hypre_boomeramg_relax_type_down SOR/Jacobi -pc_hypre_boomeramg_relax_type_up backward-SOR/Jacobi "
+    "-no_signal_handler -ksp_type cg -ksp_norm_type natural -pc_type hypre -pc_hypre_type "
+    "boomeramg "
+    "-pc_hypre_boomeramg_coarsen_type HMIS -pc_hypre_boomeramg_interp_type FF1 "
+    "-pc_hypre_boomeramg_P_max 6 "
+    "-pc_hypre_boomeramg_relax_type_down SOR/Jacobi -pc_hypre_boomeramg_relax_type_up "
+    "backward-SOR/Jacobi "
     "-mat_mumps_icntl_14 100";
 
 enum Outcome : int { unconverged, no_memory, bad_input, refused };
@@ -125,8 +129,8 @@ std::vector<double> all_gather(const std::vector<double>& values) {
   std::vector<int> starts(ranks() + 1, 0);
   std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
   std::vector<double> all(starts.back());
-  MPI_Allgatherv(values.data(), counts[rank()], MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
-                 PETSC_COMM_WORLD);
+  MPI_Allgatherv(values.data(), counts[rank()], MPI_DOUBLE, all.data(), counts.data(),
+                 starts.data(), MPI_DOUBLE, PETSC_COMM_WORLD);
   return all;
 }
 

@@ -20,14 +20,17 @@ PetscErrorCode residual(SNES, Vec u, Vec r, void* context) {  // r = K u - rhs
   return code != 0 ? code : VecAXPY(r, -1, problem->rhs);
 }
 
-PetscErrorCode jacobian(SNES, Vec, Mat, Mat, void*) { return 0; }  // K itself, which does not change
+PetscErrorCode jacobian(SNES, Vec, Mat, Mat, void*) {
+  return 0;
+}  // K itself, which does not change
 
-/// v >= bound (per owned row), K v = rhs off the contact set, from v = 0. Counts in `end`. A solver of its own: PETSc
-/// keeps the sizes of the last contact set.
-Vector solved(const DistributedProblem& problem, Vec rhs, const Eigen::VectorXd& bound, bool split, double load,
-              SnesviEnd& end) {
+/// v >= bound (per owned row), K v = rhs off the contact set, from v = 0. Counts in `end`. A solver
+/// of its own: PETSc keeps the sizes of the last contact set.
+Vector solved(const DistributedProblem& problem, Vec rhs, const Eigen::VectorXd& bound, bool split,
+              double load, SnesviEnd& end) {
   Vector v = problem.rows().vector();
-  const Vector r = problem.rows().vector(), low = problem.rows().vector(), high = problem.rows().vector();
+  const Vector r = problem.rows().vector(), low = problem.rows().vector(),
+               high = problem.rows().vector();
   Entries{low} = bound.cwiseMax(PETSC_NINFINITY);
   ok(VecSet(high, PETSC_INFINITY));
   Linear context{problem.k(), rhs};
@@ -73,7 +76,8 @@ SnesviEnd snesvi(const DistributedProblem& problem, State& state, bool split) {
   rows.summed(rows.unclamped(problem.part().load), rhs);
   ok(VecNorm(rhs, NORM_2, &load));
   SnesviEnd end;
-  for (bool settled = false; !settled && end.converged && end.corrections < max_corrections; ++end.corrections) {
+  for (bool settled = false; !settled && end.converged && end.corrections < max_corrections;
+       ++end.corrections) {
     const Eigen::VectorXd r2 = problem.compatibility(state.u, state.p);
     rows.summed(problem.right_side(problem.equilibrium(state.u, state.p), r2), rhs);
     const Eigen::VectorXd bound = problem.lower() - Entries(u);

@@ -26,6 +26,7 @@ struct SnesviEnd {
 /// B' M B, in which A1 has lost its digits. With `split` true there are corrections until du is
 /// below 1e-10 of u, but at most 20. Full steps are then taken, because PETSc's default line search
 /// fails on fine meshes, where it compares residuals that are round-off. Every rank must call it.
-SnesviEnd snesvi(const distributed::DistributedProblem& problem, distributed::State& state, bool split);
+SnesviEnd snesvi(const distributed::DistributedProblem& problem, distributed::State& state,
+                 bool split);
 
 }  // namespace antilock::distributed

@@ -1,11 +1,14 @@
 // Off the obstacle, on (0, c), with the shear force V = (w' - theta) / epsilon:
 //     V' = q,  theta'' = -V   so   V = q x + V0,   theta = -(q x^3/6 + V0 x^2/2) + A x,
 //     w = -(q x^4/24 + V0 x^3/6) + A x^2/2 + epsilon (q x^2/2 + V0 x)
-// In contact, on (c, 1 - c): w = -gap, so V = -theta / epsilon and theta'' = theta / epsilon, odd about 1/2:
+// In contact, on (c, 1 - c): w = -gap, so V = -theta / epsilon and theta'' = theta / epsilon, odd
+// about 1/2:
 //     theta = D sinh((x - 1/2) / sqrt(epsilon))
-// At c: w' = 0 (w solves a second-order obstacle problem, so it is C1), theta and theta' continuous. With
+// At c: w' = 0 (w solves a second-order obstacle problem, so it is C1), theta and theta'
+// continuous. With
 //     t = sqrt(epsilon) tanh((1/2 - c) / sqrt(epsilon)),  theta(c) = -t theta'(c)
-// these give V0 and A for every c; w(c) = -gap then fixes c. As epsilon -> 0, t -> 0: the clamped Bernoulli beam.
+// these give V0 and A for every c; w(c) = -gap then fixes c. As epsilon -> 0, t -> 0: the clamped
+// Bernoulli beam.
 #include "antilock/exact/exact_beam.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +36,8 @@ Branch free_part(double epsilon, double q, double c) {
 }
 
 double free_deflection(double epsilon, double q, const Branch& b, double x) {
-  return -(q * x * x * x * x / 24 + b.v0 * x * x * x / 6) + b.a * x * x / 2 + epsilon * (q * x * x / 2 + b.v0 * x);
+  return -(q * x * x * x * x / 24 + b.v0 * x * x * x / 6) + b.a * x * x / 2 +
+         epsilon * (q * x * x / 2 + b.v0 * x);
 }
 
 }  // namespace
@@ -45,7 +49,8 @@ ExactBeam::ExactBeam(const Beam& beam) : epsilon_(beam.epsilon), load_(beam.load
   double low = 1e-9, high = 0.5 - 1e-9;
   if (!(load_ > 0) || sinks(high) > 0)
     throw Error(
-        fmt::format("beam: load {} does not press the beam on the obstacle at {} over an interval", load_, gap_));
+        fmt::format("beam: load {} does not press the beam on the obstacle at {} over an interval",
+                    load_, gap_));
   while (high - low > 1e-15) {  // sinks falls from gap > 0 as c grows
     const double middle = 0.5 * (low + high);
     (sinks(middle) > 0 ? low : high) = middle;
@@ -76,8 +81,8 @@ double ExactBeam::contact_force() const { return load_ + 2 * v0_; }
 double ExactBeam::energy() const {
   // L(w) = -q int w; a(w, w) = L(w) + int lambda w = L(w) - gap R
   const double q = load_, c = c_, c2 = c * c, c3 = c2 * c;
-  const double free_part_integral =
-      -(q * c2 * c3 / 120 + v0_ * c2 * c2 / 24) + a_ * c3 / 6 + epsilon_ * (q * c3 / 6 + v0_ * c2 / 2);
+  const double free_part_integral = -(q * c2 * c3 / 120 + v0_ * c2 * c2 / 24) + a_ * c3 / 6 +
+                                    epsilon_ * (q * c3 / 6 + v0_ * c2 / 2);
   const double work = -q * (2 * free_part_integral - gap_ * (1 - 2 * c));
   return -0.5 * work - 0.5 * gap_ * contact_force();
 }

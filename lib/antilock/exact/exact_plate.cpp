@@ -1,11 +1,12 @@
-// Everything depends on r alone; epsilon = t^2, the shear force is Q = (w' - theta) / epsilon, L the operator
-// L theta = ((r theta)' / r)'. Off the obstacle, on (c, 1):
+// Everything depends on r alone; epsilon = t^2, the shear force is Q = (w' - theta) / epsilon, L
+// the operator L theta = ((r theta)' / r)'. Off the obstacle, on (c, 1):
 //     (r Q)' / r = q,  L theta = -Q   so   Q = q r/2 + A/r,
 //     theta = -q r^3/16 - A (r/2 ln r - r/4) + B r/2 + C/r,   w' = theta + epsilon Q
-// In contact w' = 0, so Q = -theta / epsilon and L theta = theta / epsilon: theta = D I_1(r / t), I_k Bessel's.
-// At c: w' = 0 (w is C1, as for the beam), theta and theta' continuous. I_1' = I_0 - I_1/z and theta(c) = -epsilon Q
-// give theta'(c) = -s Q(c), s = t I_0(c/t) / I_1(c/t) - epsilon / c. With theta(1) = 0 that is A, B and C for
-// every c; w(1) - w(c) = gap then fixes c. As t -> 0, s -> 0: Kirchhoff's plate.
+// In contact w' = 0, so Q = -theta / epsilon and L theta = theta / epsilon: theta = D I_1(r / t),
+// I_k Bessel's. At c: w' = 0 (w is C1, as for the beam), theta and theta' continuous. I_1' = I_0 -
+// I_1/z and theta(c) = -epsilon Q give theta'(c) = -s Q(c), s = t I_0(c/t) / I_1(c/t) - epsilon /
+// c. With theta(1) = 0 that is A, B and C for every c; w(1) - w(c) = gap then fixes c. As t -> 0,
+// s -> 0: Kirchhoff's plate.
 #include "antilock/exact/exact_plate.hpp"
 
 #include <fmt/format.h>
@@ -18,8 +19,8 @@
 namespace antilock {
 namespace {
 
-/// I_0(z) / I_1(z), by I_(k-1) / I_k = 2 k / z + I_(k+1) / I_k from far above z down; for large z its asymptotic
-/// series.
+/// I_0(z) / I_1(z), by I_(k-1) / I_k = 2 k / z + I_(k+1) / I_k from far above z down; for large z
+/// its asymptotic series.
 double bessel_ratio(double z) {
   if (z > 1e4) return 1 + 1 / (2 * z) + 3 / (8 * z * z) + 3 / (8 * z * z * z);
   const int above = 40 + 2 * static_cast<int>(z);
@@ -33,11 +34,12 @@ double bessel_ratio(double z) {
 ExactPlate::Free ExactPlate::free_part(double c) const {
   const double t = std::sqrt(epsilon_), q = load_, l = std::log(c);
   const double s = t > 0 ? t * bessel_ratio(c / t) - epsilon_ / c : 0;
-  Eigen::Matrix3d m;                                      // theta(1), w'(c), theta'(c) + s Q(c), in A, B, C
-  m << 0.25, 0.5, 1,                                      //
+  Eigen::Matrix3d m;  // theta(1), w'(c), theta'(c) + s Q(c), in A, B, C
+  m << 0.25, 0.5, 1,  //
       -(c / 2 * l - c / 4) + epsilon_ / c, c / 2, 1 / c,  //
       -(0.5 * l + 0.25) + s / c, 0.5, -1 / (c * c);
-  const Eigen::Vector3d right(q / 16, q * c * c * c / 16 - epsilon_ * q * c / 2, 3 * q * c * c / 16 - s * q * c / 2);
+  const Eigen::Vector3d right(q / 16, q * c * c * c / 16 - epsilon_ * q * c / 2,
+                              3 * q * c * c / 16 - s * q * c / 2);
   const Eigen::VectorXd x = least_squares(m, right, 1e-14);
   return {x(0), x(1), x(2)};
 }
@@ -56,11 +58,14 @@ ExactPlate::ExactPlate(double thickness, double load, double gap)
   };
   if (!(thickness >= 0 && thickness <= 10))
     throw Error(fmt::format("plate: thickness = {}; accepted: 0 to 10", thickness));
-  if (!(gap > 1e-9 * load && std::isfinite(load)))  // contact up to the rim, where fallen(1) - fallen(c) cancels
-    throw Error(fmt::format("plate: gap {} under the load {}; accepted: more than 1e-9 of a finite load", gap, load));
+  if (!(gap > 1e-9 * load &&
+        std::isfinite(load)))  // contact up to the rim, where fallen(1) - fallen(c) cancels
+    throw Error(fmt::format(
+        "plate: gap {} under the load {}; accepted: more than 1e-9 of a finite load", gap, load));
   double low = 1e-3, high = 1 - 1e-9;
   if (!(load > 0 && gap > 0 && depth(low) >= gap))
-    throw Error(fmt::format("plate: load {} does not press the plate on the obstacle at {} over a disc", load, -gap));
+    throw Error(fmt::format(
+        "plate: load {} does not press the plate on the obstacle at {} over a disc", load, -gap));
   while (high - low > 1e-15) {
     const double middle = 0.5 * (low + high);
     (depth(middle) > gap ? low : high) = middle;
@@ -69,7 +74,9 @@ ExactPlate::ExactPlate(double thickness, double load, double gap)
   free_ = free_part(c_);
 }
 
-double ExactPlate::deflection(double r) const { return r > c_ ? fallen(r, free_) - fallen(1, free_) : -gap_; }
+double ExactPlate::deflection(double r) const {
+  return r > c_ ? fallen(r, free_) - fallen(1, free_) : -gap_;
+}
 
 double ExactPlate::contact_force() const { return -2 * std::numbers::pi * free_.a; }
 

@@ -11,10 +11,10 @@
 #include "antilock/exact/exact_solution_data.hpp"
 #include "antilock/exact/sine_transform.hpp"
 
-// Both rectangles hold u = 0 on x = 0 and x = 1, so sines in x diagonalise everything but the contact condition:
-// mode by mode, body and layer are ordinary differential equations in y, solved in closed form (wave.cpp,
-// sine_row.cpp). What is left is one complementarity problem on Gamma_C for c(x) = u(x, -1) and the
-// contact pressure lambda,
+// Both rectangles hold u = 0 on x = 0 and x = 1, so sines in x diagonalise everything but the
+// contact condition: mode by mode, body and layer are ordinary differential equations in y, solved
+// in closed form (wave.cpp, sine_row.cpp). What is left is one complementarity problem on Gamma_C
+// for c(x) = u(x, -1) and the contact pressure lambda,
 //     c >= 0,   lambda = D c - q >= 0,   lambda c = 0,
 // collocated at x_j = j / N (contact_line.cpp). From c, everything else follows.
 
@@ -28,17 +28,20 @@ std::vector<LoadResponse> checked_load(const SineLoad& load, int points) {
   std::map<int, std::vector<double>> profiles;
   for (const SineMode& mode : load.modes) {
     if (mode.k < 1 || mode.k > points / 16)
-      throw Error(fmt::format("exact solution: load with wave number k = {}; accepted: 1 <= k <= {} on {} points",
-                              mode.k, points / 16, points));
+      throw Error(fmt::format(
+          "exact solution: load with wave number k = {}; accepted: 1 <= k <= {} on {} points",
+          mode.k, points / 16, points));
     if (mode.profile.size() > LoadResponse::max_degree + 1)
-      throw Error(fmt::format("exact solution: load profile of degree {} at k = {}; accepted: at most {}",
-                              mode.profile.size() - 1, mode.k, LoadResponse::max_degree));
+      throw Error(
+          fmt::format("exact solution: load profile of degree {} at k = {}; accepted: at most {}",
+                      mode.profile.size() - 1, mode.k, LoadResponse::max_degree));
     std::vector<double>& sum = profiles[mode.k];
     sum.resize(std::max(sum.size(), mode.profile.size()));
     for (std::size_t m = 0; m < mode.profile.size(); ++m) {
       if (!std::isfinite(mode.profile[m]))
-        throw Error(fmt::format("exact solution: load coefficient {} at k = {}; accepted: finite numbers",
-                                mode.profile[m], mode.k));
+        throw Error(
+            fmt::format("exact solution: load coefficient {} at k = {}; accepted: finite numbers",
+                        mode.profile[m], mode.k));
       sum[m] += mode.profile[m];
     }
   }
@@ -48,8 +51,8 @@ std::vector<LoadResponse> checked_load(const SineLoad& load, int points) {
   return responses;
 }
 
-// c and lambda by modes, without contact or where the obstacle is not reached: c_k = q_k / D_k, as many as the load
-// has.
+// c and lambda by modes, without contact or where the obstacle is not reached: c_k = q_k / D_k, as
+// many as the load has.
 VectorXd free_displacement(const std::vector<LoadResponse>& load, double epsilon) {
   VectorXd c = VectorXd::Zero(load.empty() ? 2 : load.back().k() + 1);
   for (const LoadResponse& f : load) {
@@ -59,8 +62,8 @@ VectorXd free_displacement(const std::vector<LoadResponse>& load, double epsilon
   return c;
 }
 
-// exp(-36 (k/n)^12): 1 to 1e-13 up to k = n / 16, 2e-16 at n. A series whose sum jumps then converges fast away from
-// the jump.
+// exp(-36 (k/n)^12): 1 to 1e-13 up to k = n / 16, 2e-16 at n. A series whose sum jumps then
+// converges fast away from the jump.
 VectorXd jump_filter(Eigen::Index size, int n) {
   VectorXd filter(size);
   for (Eigen::Index k = 0; k < size; ++k) filter(k) = std::exp(-36 * std::pow(double(k) / n, 12));
@@ -71,7 +74,8 @@ void solve_contact(ExactSolution::Data& data) {
   const int n = data.points();
   VectorXd stiffness = VectorXd::Ones(n + 1), load = VectorXd::Zero(n + 1);
   for (int k = 1; k < n; ++k) stiffness(k) = Symbols(k, data.epsilon).stiffness;
-  for (const LoadResponse& f : data.load) load(f.k()) = Symbols(f.k(), data.epsilon).trace * f.pull();
+  for (const LoadResponse& f : data.load)
+    load(f.k()) = Symbols(f.k(), data.epsilon).trace * f.pull();
   ContactLine line = solve_contact_line(stiffness, load);
   data.on_gamma_c = data.displacement = std::move(line.displacement);
   data.stress_gamma_c = data.pressure = std::move(line.pressure);
@@ -93,7 +97,8 @@ void lift_to_sigma(ExactSolution::Data& data) {
   }
 }
 
-// sum_k v_k sin(k pi x) and sum_k a v_k cos(k pi x), by rotation; started anew every 256 steps to keep round-off down.
+// sum_k v_k sin(k pi x) and sum_k a v_k cos(k pi x), by rotation; started anew every 256 steps to
+// keep round-off down.
 struct Sums {
   double sine = 0, derivative = 0;
 };
@@ -124,7 +129,9 @@ double between_points(const VectorXd& points, double x) {
   return (1 - t) * points(j) + t * points(j + 1);
 }
 
-SineRow row_at(const ExactSolution::Data& data, double y) { return y >= 0 ? body_row(data, y) : layer_row(data, y); }
+SineRow row_at(const ExactSolution::Data& data, double y) {
+  return y >= 0 ? body_row(data, y) : layer_row(data, y);
+}
 
 }  // namespace
 
@@ -138,9 +145,11 @@ SineLoad paper_sine_load() { return {{{2, {10.0}}}}; }
 
 ExactSolution::ExactSolution(const SineLoad& load, double epsilon, bool contact, int log2_points) {
   if (!(epsilon >= 0 && epsilon <= 1))
-    throw Error(fmt::format("exact solution: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
+    throw Error(fmt::format(
+        "exact solution: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
   if (log2_points < 6 || log2_points > 20)
-    throw Error(fmt::format("exact solution: log2_points = {} is out of range; accepted 6 to 20", log2_points));
+    throw Error(fmt::format("exact solution: log2_points = {} is out of range; accepted 6 to 20",
+                            log2_points));
   const int n = 1 << log2_points;
   Data data;
   data.epsilon = epsilon;
@@ -161,7 +170,8 @@ ExactSolution::ExactSolution(const SineLoad& load, double epsilon, bool contact,
 
 double ExactSolution::epsilon() const { return data_->epsilon; }
 
-// On Gamma_C itself the points are the solution, and linear in between they keep u >= 0 and the zone of contact.
+// On Gamma_C itself the points are the solution, and linear in between they keep u >= 0 and the
+// zone of contact.
 double ExactSolution::value(double x, double y) const {
   const Eigen::Vector2d at = inside_domain(x, y);
   const bool touches = data_->modes() == data_->points();
@@ -179,7 +189,8 @@ Eigen::Vector2d ExactSolution::gradient(double x, double y) const {
 double ExactSolution::layer_stress(double x, double y) const {
   const Eigen::Vector2d at = inside_domain(x, y);
   if (at.y() > 0)
-    throw Error(fmt::format("exact solution: layer stress at ({}, {}), in the body; accepted: -1 <= y <= 0", x, y));
+    throw Error(fmt::format(
+        "exact solution: layer stress at ({}, {}), in the body; accepted: -1 <= y <= 0", x, y));
   if (at.y() == -1) return -pressure(x);
   return sum_series(layer_row(*data_, at.y()).p, at.x()).sine;
 }
@@ -187,11 +198,14 @@ double ExactSolution::layer_stress(double x, double y) const {
 double ExactSolution::d_xx(double x, double y) const {
   const Eigen::Vector2d at = inside_domain(x, y);
   SineRow row = row_at(*data_, at.y());
-  for (Eigen::Index k = 0; k < row.u.size(); ++k) row.u(k) *= -row.a(k) * row.a(k) * data_->filter(k);
+  for (Eigen::Index k = 0; k < row.u.size(); ++k)
+    row.u(k) *= -row.a(k) * row.a(k) * data_->filter(k);
   return sum_series(row.u, at.x()).sine;
 }
 
-double ExactSolution::pressure(double x) const { return between_points(data_->pressure, inside_domain(x, -1).x()); }
+double ExactSolution::pressure(double x) const {
+  return between_points(data_->pressure, inside_domain(x, -1).x());
+}
 
 std::vector<std::pair<double, double>> ExactSolution::contact_zones() const {
   std::vector<std::pair<double, double>> zones;
@@ -214,10 +228,12 @@ std::vector<std::pair<double, double>> ExactSolution::contact_zones() const {
 double ExactSolution::max_on_contact() const { return data_->displacement.maxCoeff(); }
 
 // With v = 0 and v = 2u in the inequality, a(u, u) = L(u), so J(u) = -L(u) / 2; and
-// int f_k u_k dy = int f_k G_k + w_k int f_k sinh(a(1-y)) / sinh(a) = work + w_k G_k'(0); int sin^2 = 1/2.
+// int f_k u_k dy = int f_k G_k + w_k int f_k sinh(a(1-y)) / sinh(a) = work + w_k G_k'(0); int
+// sin^2 = 1/2.
 double ExactSolution::energy() const {
   double work = 0;
-  for (const LoadResponse& f : data_->load) work += (f.work() + data_->on_sigma(f.k()) * f.pull()) / 2;
+  for (const LoadResponse& f : data_->load)
+    work += (f.work() + data_->on_sigma(f.k()) * f.pull()) / 2;
   return -work / 2;
 }
 

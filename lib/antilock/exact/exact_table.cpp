@@ -11,17 +11,17 @@
 #include "antilock/exact/exact_solution_data.hpp"
 #include "antilock/exact/sine_transform.hpp"
 
-// In the coordinates of the true layer (22), Y = y in the body and Y = epsilon y in the layer, the solution is as
-// smooth at a distance d = Y + epsilon from Gamma_C as its worst point there allows: like r^(3/2) around the ends of
-// contact, r the distance to them. So rows are graded by d, each row has the points in x that its d asks for, and cubic
-// Hermite interpolation within a fixed fraction of d errs by a fixed fraction of what the field itself does at the
-// scale d.
+// In the coordinates of the true layer (22), Y = y in the body and Y = epsilon y in the layer, the
+// solution is as smooth at a distance d = Y + epsilon from Gamma_C as its worst point there allows:
+// like r^(3/2) around the ends of contact, r the distance to them. So rows are graded by d, each
+// row has the points in x that its d asks for, and cubic Hermite interpolation within a fixed
+// fraction of d errs by a fixed fraction of what the field itself does at the scale d.
 
 namespace antilock {
 namespace {
 
 constexpr double steps_per_distance = 12;  // rows within a distance d
-constexpr double smooth_step = 0.06;       // between rows and points, in units of 1 / (k pi) of the load
+constexpr double smooth_step = 0.06;  // between rows and points, in units of 1 / (k pi) of the load
 constexpr int most_waves = 32;
 
 // What is known at one point: with slopes in x and y, all that Hermite interpolation wants.
@@ -48,18 +48,20 @@ struct Hermite {
   double value0, slope0, value1, slope1;
 };
 
-// Cubic Lagrange through four equidistant points, -1, 0, 1, 2, at the fraction t: weights and their derivatives.
+// Cubic Lagrange through four equidistant points, -1, 0, 1, 2, at the fraction t: weights and their
+// derivatives.
 struct Lagrange {
   explicit Lagrange(double t)
-      : value{-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
-              (t + 1) * t * (t - 1) / 6},
-        slope{-(3 * t * t - 6 * t + 2) / 6, (3 * t * t - 4 * t - 1) / 2, -(3 * t * t - 2 * t - 2) / 2,
-              (3 * t * t - 1) / 6} {}
+      : value{-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
+              -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6},
+        slope{-(3 * t * t - 6 * t + 2) / 6, (3 * t * t - 4 * t - 1) / 2,
+              -(3 * t * t - 2 * t - 2) / 2, (3 * t * t - 1) / 6} {}
   double value[4], slope[4];
 };
 
-// A row at x: u and its x-slope by Hermite; p, which may jump at the ends of contact, from its values alone. Of the five
-// only what is asked for is computed: whole meshes are measured point by point.
+// A row at x: u and its x-slope by Hermite; p, which may jump at the ends of contact, from its
+// values alone. Of the five only what is asked for is computed: whole meshes are measured point by
+// point.
 struct Sample {
   Sample(const Row& row, double x) : h(1.0 / row.cells) {
     const int j = std::min(int(x * row.cells), row.cells - 1);
@@ -69,7 +71,8 @@ struct Sample {
   double u() const { return Hermite(t, h)(node[1].u, node[1].u_x, node[2].u, node[2].u_x); }
   double u_x() const {
     const Node &left = node[1], &right = node[2];
-    return 6 * t * (1 - t) * (right.u - left.u) / h + (1 - t) * (1 - 3 * t) * left.u_x + t * (3 * t - 2) * right.u_x;
+    return 6 * t * (1 - t) * (right.u - left.u) / h + (1 - t) * (1 - 3 * t) * left.u_x +
+           t * (3 * t - 2) * right.u_x;
   }
   double p() const { return along(Lagrange(t).value, &Node::p); }
   double p_y() const { return along(Lagrange(t).value, &Node::p_y); }
@@ -96,7 +99,8 @@ Eigen::VectorXd fold(const Eigen::VectorXd& modes, int n, double reflected) {
     const Eigen::Index left = modes.size() - from, up = std::min<Eigen::Index>(left, n + 1),
                        down = std::min<Eigen::Index>(left - up, n - 1);
     folded.head(up) += modes.segment(from, up);
-    if (down > 0) folded.segment(n - down, down) += reflected * modes.segment(from + n + 1, down).reverse();
+    if (down > 0)
+      folded.segment(n - down, down) += reflected * modes.segment(from + n + 1, down).reverse();
   }
   return folded;
 }
@@ -119,9 +123,11 @@ Row sampled(const SineRow& series, double y, int cells) {
   return row;
 }
 
-// The y of rows from one end to the other, steps growing with the distance from Gamma_C; unit: physical length of y
+// The y of rows from one end to the other, steps growing with the distance from Gamma_C; unit:
+// physical length of y
 // = 1.
-std::vector<double> graded_rows(double from, double to, double gamma_c, double unit, double finest, double longest) {
+std::vector<double> graded_rows(double from, double to, double gamma_c, double unit, double finest,
+                                double longest) {
   std::vector<double> rows{from};
   while (rows.back() < to) {
     const double distance = (rows.back() - gamma_c) * unit;
@@ -144,15 +150,19 @@ struct ExactTable::Grid {
     double t, h;
     double scale;  // u_y = scale p
     Hermite in_y() const { return {t, h}; }
-    double value() const { return in_y()(below.u(), scale * below.p(), above.u(), scale * above.p()); }
+    double value() const {
+      return in_y()(below.u(), scale * below.p(), above.u(), scale * above.p());
+    }
     double p() const { return in_y()(below.p(), below.p_y(), above.p(), above.p_y()); }
-    double u_x() const { return in_y()(below.u_x(), scale * below.p_x(), above.u_x(), scale * above.p_x()); }
+    double u_x() const {
+      return in_y()(below.u_x(), scale * below.p_x(), above.u_x(), scale * above.p_x());
+    }
   };
   Between between(double x, double y) const {
     const Eigen::Vector2d at = inside_domain(x, y);
     const std::vector<Row>& rows = at.y() >= 0 ? body : layer;
-    const auto after =
-        std::upper_bound(rows.begin() + 1, rows.end() - 1, at.y(), [](double y, const Row& row) { return y < row.y; });
+    const auto after = std::upper_bound(rows.begin() + 1, rows.end() - 1, at.y(),
+                                        [](double y, const Row& row) { return y < row.y; });
     const Row &below = after[-1], &above = *after;
     const double h = above.y - below.y;
     return {Sample(below, at.x()), Sample(above, at.x()), (at.y() - below.y) / h, h,
@@ -166,9 +176,10 @@ ExactTable::ExactTable(const ExactSolution& exact, int finest_cells) {
   const ExactSolution::Data& data = exact.data();
   const int waves = data.load.empty() ? 1 : data.load.back().k();  // the largest
   if (waves > most_waves)
-    throw Error(fmt::format(
-        "exact table: load with wave number k = {}; accepted: up to {} (sum the series of ExactSolution instead)",
-        waves, most_waves));
+    throw Error(
+        fmt::format("exact table: load with wave number k = {}; accepted: up to {} (sum the series "
+                    "of ExactSolution instead)",
+                    waves, most_waves));
   const double epsilon = data.epsilon, longest = smooth_step / (waves * std::numbers::pi);
   const double finest = 1.0 / finest_cells;  // between rows, next to Gamma_C
   const auto cells = [&](double distance) {
@@ -190,7 +201,8 @@ Eigen::Vector2d ExactTable::gradient(double x, double y) const { return at(x, y)
 
 double ExactTable::layer_stress(double x, double y) const {
   if (inside_domain(x, y).y() > 0)
-    throw Error(fmt::format("exact table: layer stress at ({}, {}), in the body; accepted: -1 <= y <= 0", x, y));
+    throw Error(fmt::format(
+        "exact table: layer stress at ({}, {}), in the body; accepted: -1 <= y <= 0", x, y));
   // Sigma belongs to the body's rows, where p is the same.
   return grid_->between(x, y).p();
 }

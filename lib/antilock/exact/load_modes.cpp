@@ -11,14 +11,17 @@
 
 namespace antilock {
 
-// In the body free on Sigma (u_y = 0 there) the load 2 sin(a x) cos(mu y) gives itself times g = 1 / (a^2 + mu^2): the
-// basis diagonalises that problem. Let P_k = sum_m g_km f_km be its u on Sigma. The layer pulls there with R w, the
-// body gives way by w = P - R w / T, hence w = P T / (T + R), and
+// In the body free on Sigma (u_y = 0 there) the load 2 sin(a x) cos(mu y) gives itself times g = 1
+// / (a^2 + mu^2): the basis diagonalises that problem. Let P_k = sum_m g_km f_km be its u on Sigma.
+// The layer pulls there with R w, the body gives way by w = P - R w / T, hence w = P T / (T + R),
+// and
 //     u = sum_k 2 sin(a x) (sum_m g_km f_km cos(mu_m y) - P_k R / (T + R) decay(a, y)),
-// since decay(a, 0) = 1 and -decay'(a, 0) = T. With int cos(mu_m y) decay(a, y) dy = T g_km (by parts, twice):
+// since decay(a, 0) = 1 and -decay'(a, 0) = T. With int cos(mu_m y) decay(a, y) dy = T g_km (by
+// parts, twice):
 //     S f = g f - 2 T R / (T + R) P_k g,    per k a diagonal matrix less one of rank one.
 LoadModes::LoadModes(int waves) : waves_(waves) {
-  if (waves < 1 || waves > 4096) throw Error(fmt::format("loads: {} waves; accepted: 1 to 4096", waves));
+  if (waves < 1 || waves > 4096)
+    throw Error(fmt::format("loads: {} waves; accepted: 1 to 4096", waves));
   std::vector<int> k_of, m_of;
   for (int k = 1; k <= waves; ++k)
     for (int m = 1; k * k + (m - 0.5) * (m - 0.5) <= 1.0 * waves * waves; ++m) {
@@ -36,7 +39,8 @@ LoadModes::LoadModes(int waves) : waves_(waves) {
 double LoadModes::beyond() const { return 1 / (waves_ * std::numbers::pi); }
 
 void LoadModes::check_size(const Eigen::VectorXd& f) const {
-  if (f.size() != size()) throw Error(fmt::format("loads: {} coefficients; accepted {}", f.size(), size()));
+  if (f.size() != size())
+    throw Error(fmt::format("loads: {} coefficients; accepted {}", f.size(), size()));
 }
 
 Eigen::VectorXd LoadModes::on_free_sigma(const Eigen::VectorXd& f) const {
@@ -47,7 +51,8 @@ Eigen::VectorXd LoadModes::on_free_sigma(const Eigen::VectorXd& f) const {
 }
 
 Eigen::VectorXd LoadModes::taken_away(double epsilon) const {
-  if (!(epsilon >= 0 && epsilon <= 1)) throw Error(fmt::format("loads: epsilon = {}; accepted: 0 to 1", epsilon));
+  if (!(epsilon >= 0 && epsilon <= 1))
+    throw Error(fmt::format("loads: epsilon = {}; accepted: 0 to 1", epsilon));
   Eigen::VectorXd share = Eigen::VectorXd::Zero(waves_ + 1);
   for (int k = 1; k <= waves_; ++k) {
     const Symbols symbols(k, epsilon);
@@ -87,14 +92,17 @@ double LoadModes::value(const Eigen::VectorXd& f, double x, double y) const {
 Eigen::VectorXd LoadModes::wave(int k, int m) const {
   for (int j = 0; j < size(); ++j)
     if (k_(j) == k && m_(j) == m) return Eigen::VectorXd::Unit(size(), j);
-  throw Error(fmt::format("loads: wave ({}, {}); accepted: k^2 + (m - 1/2)^2 up to {}^2", k, m, waves_));
+  throw Error(
+      fmt::format("loads: wave ({}, {}); accepted: k^2 + (m - 1/2)^2 up to {}^2", k, m, waves_));
 }
 
 Eigen::VectorXd LoadModes::constant_in_y(int k, double amplitude) const {
-  if (k < 1 || k > waves_) throw Error(fmt::format("loads: sin({} pi x); accepted: 1 to {} pi", k, waves_));
+  if (k < 1 || k > waves_)
+    throw Error(fmt::format("loads: sin({} pi x); accepted: 1 to {} pi", k, waves_));
   Eigen::VectorXd f = Eigen::VectorXd::Zero(size());
   for (int j = 0; j < size(); ++j)  // int_0^1 cos(mu y) dy = sin(mu) / mu, sin(mu_m) = -(-1)^m
-    if (k_(j) == k) f(j) = amplitude * (m_(j) % 2 == 1 ? 1 : -1) / ((m_(j) - 0.5) * std::numbers::pi);
+    if (k_(j) == k)
+      f(j) = amplitude * (m_(j) % 2 == 1 ? 1 : -1) / ((m_(j) - 0.5) * std::numbers::pi);
   return f;
 }
 

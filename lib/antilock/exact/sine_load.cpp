@@ -9,7 +9,8 @@
 namespace antilock {
 namespace {
 
-constexpr int sine_waves = 32, sine_points = 128, checks = 1 << 15, degree = LoadResponse::max_degree;
+constexpr int sine_waves = 32, sine_points = 128, checks = 1 << 15,
+              degree = LoadResponse::max_degree;
 
 // Chebyshev's points on [0, 1]: interpolation there loses few digits.
 double node(int j) { return (1 - std::cos(std::numbers::pi * (j + 0.5) / (degree + 1))) / 2; }
@@ -44,7 +45,8 @@ std::optional<SineLoad> as_sine_load(const Field& f) {
     if (profile.lpNorm<Eigen::Infinity>() > 1e-13 * largest)
       load.modes.push_back({k, polynomial(profile, 1e-13 * largest)});
   }
-  // points of the golden section: none of them is one of the samples, and of any 1e-4 of the width some see it
+  // points of the golden section: none of them is one of the samples, and of any 1e-4 of the width
+  // some see it
   for (int n = 1; n <= checks; ++n) {
     const double x = std::fmod(n * 0.6180339887498949, 1.0), y = (n - 0.5) / checks;
     if (!(std::abs(f(x, y) - load(x, y)) <= 1e-11 * largest)) return {};
@@ -53,7 +55,8 @@ std::optional<SineLoad> as_sine_load(const Field& f) {
 }
 
 std::optional<ExactSolution> exact_solution_of(const Scene& scene, int log2_points) {
-  if (!std::holds_alternative<StiffLayer>(scene.layer()) && !std::holds_alternative<VentcelLayer>(scene.layer()))
+  if (!std::holds_alternative<StiffLayer>(scene.layer()) &&
+      !std::holds_alternative<VentcelLayer>(scene.layer()))
     return {};
   if (!scene.beyond_the_paper().empty()) return {};
   for (int j = 0; scene.contact() && j <= checks; ++j)

@@ -15,9 +15,10 @@ struct DestroyPlan {
 };
 using Plan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, DestroyPlan>;
 
-// From one vector to another: in place, FFTW finds only a DST-I that takes four times as long. The plan of one kind and
-// size is made once: at most sizes it takes longer than ten transforms. It serves all vectors, since all lie in memory
-// alike (eigen_memory.hpp). FFTW's planner is the one part of it that two threads may not enter at once.
+// From one vector to another: in place, FFTW finds only a DST-I that takes four times as long. The
+// plan of one kind and size is made once: at most sizes it takes longer than ten transforms. It
+// serves all vectors, since all lie in memory alike (eigen_memory.hpp). FFTW's planner is the one
+// part of it that two threads may not enter at once.
 void transform(int n, fftw_r2r_kind kind, double* from, double* to) {
   static std::mutex planner;
   static std::map<std::pair<int, fftw_r2r_kind>, Plan> plans;

@@ -12,7 +12,8 @@
 namespace antilock {
 namespace {
 
-/// act(triangle, weight, value of f, values of the basis) at the Gauss points of each edge with the tag.
+/// act(triangle, weight, value of f, values of the basis) at the Gauss points of each edge with the
+/// tag.
 template <class Act>
 void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
   const TriangleMesh& mesh = space.mesh();
@@ -21,7 +22,8 @@ void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
       if (mesh.edge_tag[e] != tag) continue;
-      const double share = mesh.edge_triangles(e, 1) < 0 ? 1 : 0.5;  // between two triangles: the mean of both sides
+      const double share =
+          mesh.edge_triangles(e, 1) < 0 ? 1 : 0.5;  // between two triangles: the mean of both sides
       for (Eigen::Index q = 0; q < points.size(); ++q) {
         const Eigen::Vector3d lambda = on_edge(i, points(q));
         const Eigen::Vector2d x = point_in(mesh, t, lambda);
@@ -38,7 +40,8 @@ void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
 Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size());
   at_points(space, tag, g, [&](int t, double weight, double value, const Eigen::VectorXd& basis) {
-    for (Eigen::Index i = 0; i < basis.size(); ++i) load(space.cell_dofs()(t, i)) += weight * value * basis(i);
+    for (Eigen::Index i = 0; i < basis.size(); ++i)
+      load(space.cell_dofs()(t, i)) += weight * value * basis(i);
   });
   return load;
 }
@@ -57,7 +60,8 @@ WeightedFactoredForm edge_rows(const Space& space, EdgeTag tag, const Field& k) 
     moduli.push_back(value);
     for (Eigen::Index i = 0; i < basis.size(); ++i) rows.put(space.cell_dofs()(t, i), basis(i));
   });
-  return {rows.form(space.size()), Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
+  return {rows.form(space.size()),
+          Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
 }
 
 Eigen::SparseMatrix<double> gram_matrix(const WeightedFactoredForm& rows) {
@@ -94,11 +98,13 @@ Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::Vector
     if (on_sigma[v] != 1) continue;
     ends.push_back(mesh.vertices(v, 0));
     if (held[v] == 0 || given(v) != 0 || ends.size() > 2)
-      throw Error(
-          "Ventcel term: Sigma has an end at " + mesh.location_text(v) + (given(v) != 0 ? " with u not 0" : "") +
-          "; accepted: u = 0 at both of its ends, or a scaled layer with epsilon = 0, which is the same problem");
+      throw Error("Ventcel term: Sigma has an end at " + mesh.location_text(v) +
+                  (given(v) != 0 ? " with u not 0" : "") +
+                  "; accepted: u = 0 at both of its ends, or a scaled layer with epsilon = 0, "
+                  "which is the same problem");
   }
-  if (ends.size() != 2) throw Error("Ventcel term: Sigma has no ends; accepted: a piece of a line y = const");
+  if (ends.size() != 2)
+    throw Error("Ventcel term: Sigma has no ends; accepted: a piece of a line y = const");
   const auto [left, right] = std::minmax(ends[0], ends[1]);
   // x and unknown along Sigma; at the clamped ends u = 0, they have none
   std::vector<std::pair<double, int>> line{{left, -1}};
@@ -108,7 +114,8 @@ Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::Vector
   for (std::size_t k = 1; k < line.size(); ++k)
     for (const int i : {line[k - 1].second, line[k].second})
       for (const int j : {line[k - 1].second, line[k].second})
-        if (i >= 0 && j >= 0) entries.emplace_back(i, j, (i == j ? 1 : -1) / (line[k].first - line[k - 1].first));
+        if (i >= 0 && j >= 0)
+          entries.emplace_back(i, j, (i == j ? 1 : -1) / (line[k].first - line[k - 1].first));
   return from_triplets<SparseMatrix>(space.size(), space.size(), entries);
 }
 

@@ -8,9 +8,9 @@
 namespace antilock {
 namespace {
 
-/// The step of the component across edge e at its first end (on the boundary: from the prescribed midpoint value), as
-/// coefficients of the unknowns. A CR function is affine along the edge and meets at the midpoint: at the other end it
-/// is the opposite.
+/// The step of the component across edge e at its first end (on the boundary: from the prescribed
+/// midpoint value), as coefficients of the unknowns. A CR function is affine along the edge and
+/// meets at the midpoint: at the other end it is the opposite.
 std::vector<std::pair<int, double>> jump(const Space& space, int first, int e) {
   const TriangleMesh& mesh = space.mesh();
   std::vector<std::pair<int, double>> coefficients;
@@ -37,8 +37,8 @@ const Quadrature& strain_quadrature(const VectorSpace& space) {
 
 Eigen::Matrix4d Lame::matrix() const {
   const GradientCoefficients div(1, 0, 0, 1), shear(0, 1, 1, 0);
-  return 2 * mu * Eigen::Vector4d(1, 0, 0, 1).asDiagonal().toDenseMatrix() + mu * shear.transpose() * shear +
-         lambda * div.transpose() * div;
+  return 2 * mu * Eigen::Vector4d(1, 0, 0, 1).asDiagonal().toDenseMatrix() +
+         mu * shear.transpose() * shear + lambda * div.transpose() * div;
 }
 
 Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::Matrix4d& body,
@@ -52,7 +52,8 @@ Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::M
     Eigen::MatrixXd local = Eigen::MatrixXd::Zero(unknown.size(), unknown.size());
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Eigen::Matrix4Xd d = gradients.at(q, barycentric);
-      local += rule.weights(q) * mesh.area(t) * d.transpose() * (mesh.region[t] == Region::body ? body : layer) * d;
+      local += rule.weights(q) * mesh.area(t) * d.transpose() *
+               (mesh.region[t] == Region::body ? body : layer) * d;
     }
     return std::pair(unknown, local);
   });
@@ -87,7 +88,8 @@ std::vector<StrainTerm> Lame::rows() const {
   return all;
 }
 
-WeightedFactoredForm stiff_strain_rows(const VectorSpace& space, const std::vector<StrainTerm>& strains,
+WeightedFactoredForm stiff_strain_rows(const VectorSpace& space,
+                                       const std::vector<StrainTerm>& strains,
                                        std::optional<Region> region) {
   std::vector<StrainTerm> unweighted = strains;
   Eigen::VectorXd weights(static_cast<Eigen::Index>(strains.size()));
@@ -100,7 +102,9 @@ WeightedFactoredForm stiff_strain_rows(const VectorSpace& space, const std::vect
   return {std::move(form), std::move(stiffness)};
 }
 
-FactoredForm divergence(const VectorSpace& space) { return strain_form_factored(space, {{{1, 0, 0, 1}}}); }
+FactoredForm divergence(const VectorSpace& space) {
+  return strain_form_factored(space, {{{1, 0, 0, 1}}});
+}
 
 namespace {
 
@@ -108,7 +112,8 @@ namespace {
 template <class Act>
 void at_steps(const VectorSpace& space, bool clamped_in_x, Act&& act) {
   const TriangleMesh& mesh = space.x.mesh();
-  for (const auto& [part, first] : {std::pair<const Space*, int>{&space.x, 0}, {&space.y, space.x.size()}}) {
+  for (const auto& [part, first] :
+       {std::pair<const Space*, int>{&space.x, 0}, {&space.y, space.x.size()}}) {
     if (part->element().conforming()) continue;  // no steps
     for (int e = 0; e < mesh.edge_count(); ++e) {
       const bool interior = mesh.edge_triangles(e, 1) >= 0;

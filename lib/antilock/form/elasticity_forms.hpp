@@ -34,7 +34,8 @@ struct Lame {
 
 /// Returns the N x N matrix of the form int (grad u)' D grad v, where D is the 4 x 4 matrix `body`
 /// or `layer` of the region and grad u has the four derivatives of u.
-Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::Matrix4d& body = Lame{}.matrix(),
+Eigen::SparseMatrix<double> strain_form(const VectorSpace& space,
+                                        const Eigen::Matrix4d& body = Lame{}.matrix(),
                                         const Eigen::Matrix4d& layer = Lame{}.matrix());
 
 /// A term weight * strain(u) strain(v) of a form, where strain is a combination of the derivatives.
@@ -50,7 +51,8 @@ FactoredForm strain_form_factored(const VectorSpace& space, const std::vector<St
 
 /// Returns the same form as a WeightedFactoredForm: the weights are its `stiffness`, and M holds
 /// only the quadrature weights.
-WeightedFactoredForm stiff_strain_rows(const VectorSpace& space, const std::vector<StrainTerm>& strains,
+WeightedFactoredForm stiff_strain_rows(const VectorSpace& space,
+                                       const std::vector<StrainTerm>& strains,
                                        std::optional<Region> region = {});
 
 /// Returns the factored form of int div u div v, the strain_form_factored of u_x + v_y. For P1 and
@@ -66,7 +68,8 @@ const Quadrature& strain_quadrature(const VectorSpace& space);
 /// this form with the symmetric gradient, because it has no Korn inequality without it (P. Hansbo
 /// and M. G. Larson, ESAIM: M2AN 37, 2003). With clamped_in_x = false the clamped edges prescribe
 /// the component y alone.
-Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, bool clamped_in_x = true);
+Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight,
+                                      bool clamped_in_x = true);
 /// Returns the same form in factors: a row of B per edge and component, with the modulus 2 mu
 /// weight.
 WeightedFactoredForm jump_rows(const VectorSpace& space, double weight, bool clamped_in_x = true);

@@ -31,24 +31,31 @@ double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle
   const Eigen::Vector2d x = point_in(mesh, triangle, Eigen::Vector3d::Constant(1.0 / 3));
   const double factor = of_body(x(0), x(1));
   if (!(factor > 0 && std::isfinite(factor)))
-    throw Error(fmt::format("stiffness({:.6g}, {:.6g}) = {}; accepted: a positive number", x(0), x(1), factor));
+    throw Error(fmt::format("stiffness({:.6g}, {:.6g}) = {}; accepted: a positive number", x(0),
+                            x(1), factor));
   return factor;
 }
 
-const Quadrature& strain_quadrature(const Element& element) { return triangle_rule(2 * (element.degree() - 1)); }
+const Quadrature& strain_quadrature(const Element& element) {
+  return triangle_rule(2 * (element.degree() - 1));
+}
 
-Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer) {
+Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body,
+                                          const Stiffness& layer) {
   std::vector<Stiffness> of_triangle;
-  for (const Region region : space.mesh().region) of_triangle.push_back(region == Region::layer ? layer : body);
+  for (const Region region : space.mesh().region)
+    of_triangle.push_back(region == Region::layer ? layer : body);
   return gradient_form(space, of_triangle);
 }
 
-Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<Stiffness>& of_triangle) {
+Eigen::SparseMatrix<double> gradient_form(const Space& space,
+                                          const std::vector<Stiffness>& of_triangle) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const Quadrature& rule = strain_quadrature(element);
   const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(element, rule);
-  const auto add = [](auto& matrix, double weight, const Stiffness& stiffness, const auto& gradient) {
+  const auto add = [](auto& matrix, double weight, const Stiffness& stiffness,
+                      const auto& gradient) {
     matrix += weight * stiffness.x * gradient.col(0) * gradient.col(0).transpose() +
               weight * stiffness.y * gradient.col(1) * gradient.col(1).transpose();
   };
@@ -65,7 +72,8 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(element.dofs(), element.dofs());
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-      add(matrix, rule.weights(q) * mesh.area(t), of_triangle[t], Eigen::MatrixX2d(derivatives[q] * lambda));
+      add(matrix, rule.weights(q) * mesh.area(t), of_triangle[t],
+          Eigen::MatrixX2d(derivatives[q] * lambda));
     return matrix;
   });
 }
@@ -85,13 +93,16 @@ WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffne
         rows.add(t, rule.weights(q) * mesh.area(t));
         moduli.push_back(modulus);
         const Eigen::VectorXd derivative = derivatives[q] * lambda.col(axis);
-        for (Eigen::Index i = 0; i < derivative.size(); ++i) rows.put(space.cell_dofs()(t, i), derivative(i));
+        for (Eigen::Index i = 0; i < derivative.size(); ++i)
+          rows.put(space.cell_dofs()(t, i), derivative(i));
       }
   }
-  return {rows.form(space.size()), Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
+  return {rows.form(space.size()),
+          Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
 }
 
-FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2d(int)>& direction) {
+FactoredForm layer_strain(const Space& space,
+                          const std::function<Eigen::Vector2d(int)>& direction) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const Quadrature& rule = strain_quadrature(element);
@@ -110,24 +121,30 @@ FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2
     const Eigen::Index q = r % points;
     strain.m(r) = rule.weights(q) * mesh.area(t);
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
-    const Eigen::Vector3d slope = direction ? Eigen::Vector3d(lambda * direction(t)) : Eigen::Vector3d(lambda.col(1));
+    const Eigen::Vector3d slope =
+        direction ? Eigen::Vector3d(lambda * direction(t)) : Eigen::Vector3d(lambda.col(1));
     dy.noalias() = derivatives[q] * slope;
-    for (Eigen::Index i = 0; i < dy.size(); ++i) strain.b.insert(r, space.cell_dofs()(t, i)) = dy(i);
+    for (Eigen::Index i = 0; i < dy.size(); ++i)
+      strain.b.insert(r, space.cell_dofs()(t, i)) = dy(i);
   }
   strain.b.makeCompressed();
   return strain;
 }
 
-const Quadrature& load_rule(const Element& element) { return triangle_rule(std::max(5, 2 * element.degree())); }
+const Quadrature& load_rule(const Element& element) {
+  return triangle_rule(std::max(5, 2 * element.degree()));
+}
 
 Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = load_rule(space.element());
   const Eigen::Matrix3Xd points = rule.points.transpose();
-  Eigen::MatrixXd weighted(space.element().dofs(), points.cols());  // the basis at the points, times their weights
+  Eigen::MatrixXd weighted(space.element().dofs(),
+                           points.cols());  // the basis at the points, times their weights
   for (Eigen::Index q = 0; q < points.cols(); ++q)
     weighted.col(q) = rule.weights(q) * space.element().basis(points.col(q));
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size()), values(points.cols()), local(weighted.rows());
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size()), values(points.cols()),
+                  local(weighted.rows());
   Eigen::Matrix<double, 2, 3> corners;
   Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor> x(2, points.cols());
   for (int t = 0; t < mesh.triangle_count(); ++t) {

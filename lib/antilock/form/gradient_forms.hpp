@@ -22,9 +22,11 @@ double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle
 /// Returns the N x N matrix of the form, summed over the triangles. The stiffness {1, 1} on the
 /// body gives the form a+ of (23) of [SR04] (cited in problem/variational_inequality.hpp), and {1,
 /// 0} on the layer gives a_x^-.
-Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer);
+Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body,
+                                          const Stiffness& layer);
 /// Returns the same for a stiffness per triangle (T).
-Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<Stiffness>& of_triangle);
+Eigen::SparseMatrix<double> gradient_form(const Space& space,
+                                          const std::vector<Stiffness>& of_triangle);
 /// Returns the same form in factors. The rows of B are d_x and d_y at each point of
 /// strain_quadrature; those of stiffness 0 are left out.
 WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle);
@@ -33,7 +35,8 @@ WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffne
 /// quadrature point of a layer triangle, and M holds the weight of the point times the area. For P1
 /// and CR d_y u is constant on a triangle, so there is one row per triangle. `direction`, if not
 /// empty, returns the direction that replaces y on a triangle.
-FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2d(int triangle)>& direction = {});
+FactoredForm layer_strain(const Space& space,
+                          const std::function<Eigen::Vector2d(int triangle)>& direction = {});
 /// Returns the quadrature rule of these rows. For an element of degree k, d/dy u_h has degree k - 1
 /// on a triangle, and its square degree 2 (k - 1). So the rule is the centroid for k = 1 and the
 /// edge midpoints for k = 2.

@@ -12,7 +12,8 @@ namespace antilock {
 
 // Eigenvalues of the Jacobi matrix of Legendre's polynomials (Golub and Welsch 1969).
 std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n) {
-  if (n < 1 || n > 1000) throw Error(fmt::format("quadrature: Gauss's rule of {} points; accepted: 1 to 1000", n));
+  if (n < 1 || n > 1000)
+    throw Error(fmt::format("quadrature: Gauss's rule of {} points; accepted: 1 to 1000", n));
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
   for (int k = 1; k < n; ++k) jacobi(k, k - 1) = k / std::sqrt(4.0 * k * k - 1);
   const auto [values, vectors] = symmetric_eigen(jacobi);
@@ -21,7 +22,8 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n) {
 
 namespace {
 
-/// The square folded onto the triangle, (s, t) -> lambda = (s, (1 - s) t, (1 - s)(1 - t)): its area element is (1 - s).
+/// The square folded onto the triangle, (s, t) -> lambda = (s, (1 - s) t, (1 - s)(1 - t)): its area
+/// element is (1 - s).
 Quadrature conical_rule(int degree) {
   const int n = (degree + 3) / 2;  // in s the polynomial is of degree + 1
   const auto [points, weights] = gauss_rule(n);
@@ -39,10 +41,12 @@ Quadrature conical_rule(int degree) {
 Quadrature radons_rule() {
   const double s = std::sqrt(15.0), a = (6 - s) / 21, b = (6 + s) / 21;
   Quadrature rule{Eigen::MatrixX3d(7, 3), Eigen::VectorXd(7)};
-  rule.points << Eigen::RowVector3d::Constant(1.0 / 3), Eigen::Matrix3d::Constant(a), Eigen::Matrix3d::Constant(b);
+  rule.points << Eigen::RowVector3d::Constant(1.0 / 3), Eigen::Matrix3d::Constant(a),
+      Eigen::Matrix3d::Constant(b);
   rule.points.diagonal(-1).setConstant(1 - 2 * a);
   rule.points.diagonal(-4).setConstant(1 - 2 * b);
-  rule.weights << 9.0 / 40, Eigen::Vector3d::Constant((155 - s) / 1200), Eigen::Vector3d::Constant((155 + s) / 1200);
+  rule.weights << 9.0 / 40, Eigen::Vector3d::Constant((155 - s) / 1200),
+      Eigen::Vector3d::Constant((155 + s) / 1200);
   return rule;
 }
 
@@ -55,7 +59,8 @@ const Quadrature& triangle_rule(int degree) {
   static const std::array<Quadrature, most + 1> rules = [] {
     std::array<Quadrature, most + 1> r;
     r[0] = r[1] = {Eigen::RowVector3d::Constant(1.0 / 3), Eigen::VectorXd::Ones(1)};
-    r[2] = {0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity()), Eigen::Vector3d::Constant(1.0 / 3)};
+    r[2] = {0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity()),
+            Eigen::Vector3d::Constant(1.0 / 3)};
     r[3] = r[4] = r[5] = radons_rule();
     for (int d = 6; d <= most; ++d) r[d] = conical_rule(d);
     return r;
@@ -73,7 +78,8 @@ Eigen::Vector3d on_edge(int i, double s) {
 Eigen::VectorXd means_on_edge(const Element& element, int i) {
   const auto [places, weights] = gauss_rule(element.degree() / 2 + 1);
   Eigen::VectorXd means = Eigen::VectorXd::Zero(element.dofs());
-  for (Eigen::Index q = 0; q < places.size(); ++q) means += weights(q) * element.basis(on_edge(i, places(q)));
+  for (Eigen::Index q = 0; q < places.size(); ++q)
+    means += weights(q) * element.basis(on_edge(i, places(q)));
   return means;
 }
 

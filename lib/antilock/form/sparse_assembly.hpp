@@ -28,10 +28,13 @@ class FactoredFormBuilder {
     m_.push_back(weight);
   }
   /// Adds an entry to the newest row of B.
-  void put(int unknown, double value) { b_.emplace_back(static_cast<int>(m_.size()) - 1, unknown, value); }
+  void put(int unknown, double value) {
+    b_.emplace_back(static_cast<int>(m_.size()) - 1, unknown, value);
+  }
   FactoredForm form(int unknowns) const {
     const auto rows = static_cast<Eigen::Index>(m_.size());
-    return {from_triplets<RowMatrix>(rows, unknowns, b_), Eigen::Map<const Eigen::VectorXd>(m_.data(), rows), cell_};
+    return {from_triplets<RowMatrix>(rows, unknowns, b_),
+            Eigen::Map<const Eigen::VectorXd>(m_.data(), rows), cell_};
   }
 
  private:
@@ -51,7 +54,8 @@ inline std::vector<int> column_pointers(const Space& space) {
   std::vector<int> at_vertex(mesh.vertex_count(), v), at_edge(mesh.edge_count(), 2 * v + e);
   for (const int end : mesh.edges.reshaped<Eigen::RowMajor>()) at_vertex[end] += v + e;
   for (const int corner : mesh.triangles.reshaped<Eigen::RowMajor>()) at_vertex[corner] += e + t;
-  for (const int edge : mesh.triangle_edges.reshaped<Eigen::RowMajor>()) at_edge[edge] += v + 2 * e + t;
+  for (const int edge : mesh.triangle_edges.reshaped<Eigen::RowMajor>())
+    at_edge[edge] += v + 2 * e + t;
   std::vector<int> start{0};
   start.reserve(space.size() + 1);
   const auto add = [&](int columns, int rows) {
@@ -70,7 +74,9 @@ template <class LocalMatrix>
 Eigen::SparseMatrix<double> assemble_cells(const Space& space, LocalMatrix&& local) {
   const auto& unknowns = space.cell_dofs();
   const std::vector<int> start = column_pointers(space);
-  std::vector<int> end(start.begin(), start.end() - 1);  // behind the rows that a column has so far, in ascending order
+  std::vector<int> end(
+      start.begin(),
+      start.end() - 1);  // behind the rows that a column has so far, in ascending order
   Eigen::SparseMatrix<double> sum(space.size(), space.size());
   sum.resizeNonZeros(start.back());
   std::copy(start.begin(), start.end(), sum.outerIndexPtr());

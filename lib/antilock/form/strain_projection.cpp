@@ -13,31 +13,35 @@ namespace {
 
 void check_projection(const FactoredForm& form, const StrainProjection& projection) {
   if (projection.cols() != form.b.rows())
-    throw Error(fmt::format("strain projection: weights of {} rows; accepted: of the {} rows of B", projection.cols(),
-                            form.b.rows()));
+    throw Error(fmt::format("strain projection: weights of {} rows; accepted: of the {} rows of B",
+                            projection.cols(), form.b.rows()));
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(projection.cols());
   for (Eigen::Index g = 0; g < projection.rows(); ++g) {
     double own = 0;
     for (StrainProjection::InnerIterator weight(projection, g); weight; ++weight) {
       if (!(weight.value() >= 0))
-        throw Error(
-            fmt::format("strain projection: weight {} of row {}; accepted: 0 to 1", weight.value(), weight.col()));
+        throw Error(fmt::format("strain projection: weight {} of row {}; accepted: 0 to 1",
+                                weight.value(), weight.col()));
       sum(weight.col()) += weight.value();
       own += weight.value();
     }
-    if (!(own > 0)) throw Error(fmt::format("strain projection: mean {} has no row of B; accepted: at least one", g));
+    if (!(own > 0))
+      throw Error(
+          fmt::format("strain projection: mean {} has no row of B; accepted: at least one", g));
   }
   for (Eigen::Index r = 0; r < sum.size(); ++r)
     if (!(std::abs(sum(r) - 1) < 1e-12))
-      throw Error(fmt::format("strain projection: the weights of row {} sum to {}; accepted: 1", r, sum(r)));
+      throw Error(fmt::format("strain projection: the weights of row {} sum to {}; accepted: 1", r,
+                              sum(r)));
 }
 
 void check_cells(const TriangleMesh& mesh, const FactoredForm& form) {
   for (const int t : form.cell)
     if (t < 0 || t >= mesh.triangle_count())
       throw Error(
-          fmt::format("strain projection: a row of B in cell {} of a mesh of {}; accepted: the mesh of the form", t,
-                      mesh.triangle_count()));
+          fmt::format("strain projection: a row of B in cell {} of a mesh of {}; accepted: the "
+                      "mesh of the form",
+                      t, mesh.triangle_count()));
 }
 
 }  // namespace
@@ -56,19 +60,24 @@ FactoredForm project_strain(const FactoredForm& form, const StrainProjection& pr
   return mean;
 }
 
-StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& form, double width, double height) {
+StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& form, double width,
+                                double height) {
   for (const double length : {width, height})
     if (!(length > 0 && std::isfinite(length)))
-      throw Error(fmt::format("box_projection: a box of {} x {}; accepted: positive lengths", width, height));
-  const Eigen::RowVector2d from = mesh.vertices.colwise().minCoeff(), size = mesh.vertices.colwise().maxCoeff() - from;
+      throw Error(fmt::format("box_projection: a box of {} x {}; accepted: positive lengths", width,
+                              height));
+  const Eigen::RowVector2d from = mesh.vertices.colwise().minCoeff(),
+                           size = mesh.vertices.colwise().maxCoeff() - from;
   if (!(width >= 1e-9 * size(0) && height >= 1e-9 * size(1)))
     throw Error(
-        fmt::format("box_projection: a box of {} x {} of a mesh of {} x {}; accepted: a billionth of it or more", width,
-                    height, size(0), size(1)));
+        fmt::format("box_projection: a box of {} x {} of a mesh of {} x {}; accepted: a billionth "
+                    "of it or more",
+                    width, height, size(0), size(1)));
   check_cells(mesh, form);
   std::vector<std::pair<long, long>> box;
   for (const int t : form.cell) {
-    const Eigen::Vector2d at = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3)) - from.transpose();
+    const Eigen::Vector2d at =
+        point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3)) - from.transpose();
     box.emplace_back(static_cast<long>(at(0) / width), static_cast<long>(at(1) / height));
   }
   // numbered in the order of their places, so that the means do not depend on the order of the rows
@@ -77,11 +86,13 @@ StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& fo
   int means = 0;
   for (auto& [place, number] : mean) number = means++;
   Triplets entries;
-  for (std::size_t r = 0; r < box.size(); ++r) entries.emplace_back(mean[box[r]], static_cast<int>(r), 1.0);
+  for (std::size_t r = 0; r < box.size(); ++r)
+    entries.emplace_back(mean[box[r]], static_cast<int>(r), 1.0);
   return from_triplets<StrainProjection>(means, form.b.rows(), entries);
 }
 
-StrainProjection vertex_projection(const TriangleMesh& mesh, const FactoredForm& form, const Quadrature& rule) {
+StrainProjection vertex_projection(const TriangleMesh& mesh, const FactoredForm& form,
+                                   const Quadrature& rule) {
   check_cells(mesh, form);
   const auto points = static_cast<std::size_t>(rule.weights.size());
   std::vector<int> mean(mesh.vertex_count(), -1);
@@ -89,7 +100,8 @@ StrainProjection vertex_projection(const TriangleMesh& mesh, const FactoredForm&
     if (form.cell.size() % points != 0 || form.cell[r] != form.cell[r - r % points] ||
         (r > 0 && r % points == 0 && form.cell[r] == form.cell[r - 1]))
       throw Error(
-          fmt::format("vertex_projection: row {} of B is not a point of the rule of {} points per cell; accepted: "
+          fmt::format("vertex_projection: row {} of B is not a point of the rule of {} points per "
+                      "cell; accepted: "
                       "the rule that the form was made with",
                       r, points));
     for (int i = 0; i < 3; ++i) mean[mesh.triangles(form.cell[r], i)] = 0;

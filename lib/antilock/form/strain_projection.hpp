@@ -23,11 +23,13 @@ FactoredForm project_strain(const FactoredForm& form, const StrainProjection& pr
 /// Returns the projection onto the means over the boxes of a grid that contain the centroid of a
 /// cell. The boxes are `width` x `height` (lengths) and begin at the smallest x and y of the mesh.
 /// Throws Error for a length that is not positive.
-StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& form, double width, double height);
+StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& form, double width,
+                                double height);
 
 /// Returns the projection onto one weighted mean per vertex, over the cells that have this vertex.
 /// The weight is the hat function of the vertex at the points of `rule`. The rows of a cell must
 /// belong to the points of the rule, in their order. Throws Error otherwise.
-StrainProjection vertex_projection(const TriangleMesh& mesh, const FactoredForm& form, const Quadrature& rule);
+StrainProjection vertex_projection(const TriangleMesh& mesh, const FactoredForm& form,
+                                   const Quadrature& rule);
 
 }  // namespace antilock

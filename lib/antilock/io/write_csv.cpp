@@ -1,4 +1,5 @@
-// The mesh as MSH 2.2 (gmsh and this library's reader) and in FreeFEM's own format, with one numbering; tables as CSV.
+// The mesh as MSH 2.2 (gmsh and this library's reader) and in FreeFEM's own format, with one
+// numbering; tables as CSV.
 #include "antilock/io/write_csv.hpp"
 
 #include <Eigen/Core>
@@ -13,14 +14,17 @@
 
 namespace antilock {
 
-void write_csv(const std::filesystem::path& path, const std::vector<std::string>& header, const Eigen::MatrixXd& rows) {
+void write_csv(const std::filesystem::path& path, const std::vector<std::string>& header,
+               const Eigen::MatrixXd& rows) {
   if (header.empty() || static_cast<Eigen::Index>(header.size()) != rows.cols())
-    throw Error(fmt::format("{}: {} names for {} columns; accepted: one name per column, at least one", path.string(),
-                            header.size(), rows.cols()));
+    throw Error(
+        fmt::format("{}: {} names for {} columns; accepted: one name per column, at least one",
+                    path.string(), header.size(), rows.cols()));
   for (const std::string& name : header)
     if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
-      throw Error(fmt::format("{}: column name {:?} is empty or holds a comma, a quote or a line end", path.string(),
-                              std::string_view(name)));
+      throw Error(
+          fmt::format("{}: column name {:?} is empty or holds a comma, a quote or a line end",
+                      path.string(), std::string_view(name)));
   write_file(path, [&](std::ostream& out) {
     Text text(out);
     text.print("{}\n", fmt::join(header, ","));
@@ -30,10 +34,12 @@ void write_csv(const std::filesystem::path& path, const std::vector<std::string>
   });
 }
 
-void write_solution_csv(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u) {
+void write_solution_csv(const std::filesystem::path& path, const Space& space,
+                        const Eigen::VectorXd& u) {
   if ((u.size() != space.size() && u.size() != 2 * space.size()) || !u.allFinite())
-    throw Error(fmt::format("{}: u must be {} finite values, one an unknown; it has {}, {} of them finite",
-                            path.string(), space.size(), u.size(), u.array().isFinite().count()));
+    throw Error(
+        fmt::format("{}: u must be {} finite values, one an unknown; it has {}, {} of them finite",
+                    path.string(), space.size(), u.size(), u.array().isFinite().count()));
   const Eigen::Index components = u.size() / space.size();
   Eigen::MatrixXd rows(space.size(), 2 + components);
   rows << space.dof_coordinates(), u.reshaped(space.size(), components);

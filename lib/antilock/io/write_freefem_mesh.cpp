@@ -13,14 +13,16 @@ namespace antilock {
 
 void write_freefem_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   const auto edges = labelled_edges(mesh);
-  std::vector<int> vertex_label(mesh.vertex_count(), 0);  // a corner takes the larger of its two labels; none reads it
+  std::vector<int> vertex_label(mesh.vertex_count(),
+                                0);  // a corner takes the larger of its two labels; none reads it
   for (const auto& [from, to, label] : edges)
     for (const int v : {from, to}) vertex_label[v] = std::max(vertex_label[v], label);
   write_file(path, [&](std::ostream& out) {
     Text text(out);
     text.print("{} {} {}\n", mesh.vertex_count(), mesh.triangle_count(), edges.size());
     for (int v = 0; v < mesh.vertex_count(); ++v)
-      text.print(FMT_COMPILE("{} {} {}\n"), mesh.vertices(v, 0), mesh.vertices(v, 1), vertex_label[v]);
+      text.print(FMT_COMPILE("{} {} {}\n"), mesh.vertices(v, 0), mesh.vertices(v, 1),
+                 vertex_label[v]);
     for (int t = 0; t < mesh.triangle_count(); ++t)
       text.print(FMT_COMPILE("{} {} {} {}\n"), mesh.triangles(t, 0) + 1, mesh.triangles(t, 1) + 1,
                  mesh.triangles(t, 2) + 1, static_cast<int>(mesh.region[t]));

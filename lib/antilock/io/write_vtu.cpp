@@ -1,7 +1,8 @@
-// VTU, the unstructured grid of VTK's XML formats: for ParaView and for the figures. The arrays are bytes (little-endian
-// doubles and integers) in base64, each in its element of the XML: a million triangles as decimal numbers take ten times
-// the seconds. Raw bytes behind the XML would be a quarter smaller, but meshio reads them by way of one text in base64 for
-// all arrays, which Python 3.13 refuses to decode from the middle.
+// VTU, the unstructured grid of VTK's XML formats: for ParaView and for the figures. The arrays are
+// bytes (little-endian doubles and integers) in base64, each in its element of the XML: a million
+// triangles as decimal numbers take ten times the seconds. Raw bytes behind the XML would be a
+// quarter smaller, but meshio reads them by way of one text in base64 for all arrays, which Python
+// 3.13 refuses to decode from the middle.
 #include "antilock/io/write_vtu.hpp"
 
 #include <fmt/format.h>
@@ -28,11 +29,13 @@ struct Array {
 struct Grid {
   Points points;
   Triples triangles;
-  std::vector<Array> point_data = {}, cell_data = {};  ///< the first of each is the one that a viewer shows
-  bool regions = false;                                ///< with names for the numbers in the cell data `region`
+  std::vector<Array> point_data = {},
+                     cell_data = {};  ///< the first of each is the one that a viewer shows
+  bool regions = false;               ///< with names for the numbers in the cell data `region`
 };
 
-/// The bytes in base64 (RFC 4648): three bytes are four letters, the last group is filled up with "=".
+/// The bytes in base64 (RFC 4648): three bytes are four letters, the last group is filled up with
+/// "=".
 std::string base64(const std::string& bytes) {
   constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text(4 * ((bytes.size() + 2) / 3), '=');
@@ -46,7 +49,8 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// The element of the XML for an array of numbers: its length in bytes (UInt64) and its numbers, together in base64.
+/// The element of the XML for an array of numbers: its length in bytes (UInt64) and its numbers,
+/// together in base64.
 template <class Number>
 std::string data_array(const char* type, const std::string& name, Eigen::Index components,
                        const std::vector<Number>& values) {
@@ -55,8 +59,10 @@ std::string data_array(const char* type, const std::string& name, Eigen::Index c
   std::memcpy(bytes.data(), &length, sizeof length);
   if (length > 0) std::memcpy(bytes.data() + sizeof length, values.data(), length);
   const std::string text = base64(bytes);
-  return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
-                     type, name, components, text);
+  return fmt::format(
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
+      "format=\"binary\">{}</DataArray>\n",
+      type, name, components, text);
 }
 
 /// The section of the XML with these arrays, in their order.
@@ -65,15 +71,17 @@ std::string data_section(const char* section, const std::vector<Array>& arrays) 
   for (const auto& [name, values, integers] : arrays) {
     const auto in_rows = values.transpose().reshaped();
     if (integers)
-      xml += data_array("Int32", name, values.cols(), std::vector<std::int32_t>(in_rows.begin(), in_rows.end()));
+      xml += data_array("Int32", name, values.cols(),
+                        std::vector<std::int32_t>(in_rows.begin(), in_rows.end()));
     else
-      xml += data_array("Float64", name, values.cols(), std::vector<double>(in_rows.begin(), in_rows.end()));
+      xml += data_array("Float64", name, values.cols(),
+                        std::vector<double>(in_rows.begin(), in_rows.end()));
   }
   return xml + fmt::format("</{}>\n", section);
 }
 
-/// The names of the numbers in `region`: an array of one number per name. VTK's own text arrays (type "String") make
-/// meshio refuse the whole file.
+/// The names of the numbers in `region`: an array of one number per name. VTK's own text arrays
+/// (type "String") make meshio refuse the whole file.
 const char* const region_names =
     "<FieldData>\n"
     "<DataArray type=\"Int32\" Name=\"body\" NumberOfTuples=\"1\" format=\"ascii\">1</DataArray>\n"
@@ -87,7 +95,8 @@ void write(const std::filesystem::path& path, const Grid& grid) {
   std::vector<double> in_space(3 * points, 0.0);
   for (Eigen::Index i = 0; i < points; ++i)
     for (int k = 0; k < 2; ++k) in_space[3 * i + k] = grid.points(i, k);
-  const std::vector<std::int32_t> corners(grid.triangles.data(), grid.triangles.data() + grid.triangles.size());
+  const std::vector<std::int32_t> corners(grid.triangles.data(),
+                                          grid.triangles.data() + grid.triangles.size());
   std::vector<std::int32_t> ends(triangles);
   for (Eigen::Index t = 0; t < triangles; ++t) ends[t] = static_cast<std::int32_t>(3 * (t + 1));
 
@@ -98,13 +107,15 @@ void write(const std::filesystem::path& path, const Grid& grid) {
     out << fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points, triangles);
     out << data_section("PointData", grid.point_data) << data_section("CellData", grid.cell_data);
     out << "<Points>\n" << data_array("Float64", "points", 3, in_space) << "</Points>\n<Cells>\n";
-    out << data_array("Int32", "connectivity", 1, corners) << data_array("Int32", "offsets", 1, ends)
+    out << data_array("Int32", "connectivity", 1, corners)
+        << data_array("Int32", "offsets", 1, ends)
         << data_array("UInt8", "types", 1, std::vector<std::uint8_t>(triangles, vtk_triangle));
     out << "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   });
 }
 
-/// Three points per triangle, so that a field that jumps from triangle to triangle can; or the vertices of the mesh.
+/// Three points per triangle, so that a field that jumps from triangle to triangle can; or the
+/// vertices of the mesh.
 Grid grid_of(const TriangleMesh& mesh, bool shared) {
   const Points vertices = mesh.curved() ? drawn_along_normals(mesh) : mesh.vertices;
   if (shared) return {vertices, mesh.triangles};
@@ -137,13 +148,15 @@ Eigen::VectorXd corner_values(const Space& space, const Eigen::VectorXd& u) {
   return values;
 }
 
-/// The contact pressure at the points of the grid: at a vertex its own, on a Crouzeix-Raviart edge that of the edge.
+/// The contact pressure at the points of the grid: at a vertex its own, on a Crouzeix-Raviart edge
+/// that of the edge.
 Eigen::VectorXd point_pressure(const Space& space, const Eigen::VectorXd& pressure, bool shared) {
   const TriangleMesh& mesh = space.mesh();
   Eigen::VectorXd of_unknown = Eigen::VectorXd::Zero(space.size());
   of_unknown(space.contact_dofs()) = pressure;
   if (shared) return of_unknown.head(mesh.vertex_count());
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.triangle_count()));
+  Eigen::VectorXd values =
+      Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.triangle_count()));
   for (const int edge : space.contact_dofs()) {
     const int triangle = mesh.edge_triangles(edge, 0);
     for (int i = 0; i < 3; ++i)
@@ -153,32 +166,38 @@ Eigen::VectorXd point_pressure(const Space& space, const Eigen::VectorXd& pressu
   return values;
 }
 
-void check_values(const std::filesystem::path& path, const char* name, const char* each, const Eigen::VectorXd& values,
-                  int count) {
+void check_values(const std::filesystem::path& path, const char* name, const char* each,
+                  const Eigen::VectorXd& values, int count) {
   if (values.size() != count || !values.allFinite())
-    throw Error(fmt::format("{}: {} must be {} finite values, one {}; it has {}, {} of them finite", path.string(),
-                            name, count, each, values.size(), values.array().isFinite().count()));
+    throw Error(fmt::format("{}: {} must be {} finite values, one {}; it has {}, {} of them finite",
+                            path.string(), name, count, each, values.size(),
+                            values.array().isFinite().count()));
 }
 
 }  // namespace
 
-void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u, const VtuFields& more) {
+void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u,
+               const VtuFields& more) {
   check_values(path, "u", "per unknown", u, space.size());
   const TriangleMesh& mesh = space.mesh();
   if (more.p.size() > 0) check_values(path, "p", "per triangle", more.p, mesh.triangle_count());
   if (more.pressure.size() > 0)
-    check_values(path, "pressure", "per contact unknown", more.pressure, static_cast<int>(space.contact_dofs().size()));
+    check_values(path, "pressure", "per contact unknown", more.pressure,
+                 static_cast<int>(space.contact_dofs().size()));
   // elements with unknowns at the vertices share them; the others jump there
   const bool shared = space.element().dofs_per_vertex() > 0;
   Grid grid = grid_of(mesh, shared);
-  grid.point_data.push_back({"u", shared ? Eigen::VectorXd(u.head(mesh.vertex_count())) : corner_values(space, u)});
-  if (more.pressure.size() > 0) grid.point_data.push_back({"pressure", point_pressure(space, more.pressure, shared)});
+  grid.point_data.push_back(
+      {"u", shared ? Eigen::VectorXd(u.head(mesh.vertex_count())) : corner_values(space, u)});
+  if (more.pressure.size() > 0)
+    grid.point_data.push_back({"pressure", point_pressure(space, more.pressure, shared)});
   add_regions(grid, mesh);
   if (more.p.size() > 0) grid.cell_data.push_back({"p", more.p});
   write(path, grid);
 }
 
-void write_vtu(const std::filesystem::path& path, const TriangleMesh& mesh, const Eigen::MatrixX3d& corners) {
+void write_vtu(const std::filesystem::path& path, const TriangleMesh& mesh,
+               const Eigen::MatrixX3d& corners) {
   const Eigen::VectorXd values = corners.transpose().reshaped();
   check_values(path, "u", "per corner", values, 3 * mesh.triangle_count());
   Grid grid = grid_of(mesh, false);
@@ -187,8 +206,8 @@ void write_vtu(const std::filesystem::path& path, const TriangleMesh& mesh, cons
   write(path, grid);
 }
 
-void write_deformed_vtu(const std::filesystem::path& path, const VectorSpace& space, const Eigen::VectorXd& u,
-                        const Eigen::VectorXd& pressure) {
+void write_deformed_vtu(const std::filesystem::path& path, const VectorSpace& space,
+                        const Eigen::VectorXd& u, const Eigen::VectorXd& pressure) {
   const TriangleMesh& mesh = space.x.mesh();
   check_values(path, "u", "per unknown", u, space.size());
   check_values(path, "pressure", "per triangle", pressure, mesh.triangle_count());

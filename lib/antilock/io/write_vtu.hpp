@@ -25,11 +25,12 @@ void write_vtu(const std::filesystem::path& path, const Space& space, const Eige
                const VtuFields& more = {});
 /// Writes a field that is affine on each triangle and jumps between them: T x 3 values at the
 /// corners of the T triangles, as point data `u`.
-void write_vtu(const std::filesystem::path& path, const TriangleMesh& mesh, const Eigen::MatrixX3d& corners);
+void write_vtu(const std::filesystem::path& path, const TriangleMesh& mesh,
+               const Eigen::MatrixX3d& corners);
 /// Writes the body deformed by u, not magnified. There are three points per triangle, at their
 /// deformed positions. The point data are `displacement`, the cell data `pressure` (one value per
 /// triangle).
-void write_deformed_vtu(const std::filesystem::path& path, const VectorSpace& space, const Eigen::VectorXd& u,
-                        const Eigen::VectorXd& pressure);
+void write_deformed_vtu(const std::filesystem::path& path, const VectorSpace& space,
+                        const Eigen::VectorXd& u, const Eigen::VectorXd& pressure);
 
 }  // namespace antilock

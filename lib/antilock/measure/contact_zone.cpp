@@ -21,9 +21,10 @@ void require_space_of_bounds(const Result& result, const std::string& who) {
   require_bounds_on_unknowns(problem.bounds, who);
   require_hard_bounds(problem.bounds, who);
   if (space.contact_dofs().size() != problem.bounds.unknowns.size())
-    throw Error(fmt::format(
-        "{}: {} bounds and a space with {} unknowns on Gamma_C; accepted: that of the component with bounds", who,
-        problem.bounds.unknowns.size(), space.contact_dofs().size()));
+    throw Error(
+        fmt::format("{}: {} bounds and a space with {} unknowns on Gamma_C; accepted: that of the "
+                    "component with bounds",
+                    who, problem.bounds.unknowns.size(), space.contact_dofs().size()));
 }
 
 }  // namespace
@@ -45,10 +46,12 @@ ContactZone contact_zone(const Result& result) {
 }
 
 Eigen::VectorXd contact_lengths(const Space& space) {
-  // int phi_i over the edge: shared by its unknowns as the element's basis says (midpoint: 1; ends: 1/2 each)
+  // int phi_i over the edge: shared by its unknowns as the element's basis says (midpoint: 1; ends:
+  // 1/2 each)
   Eigen::VectorXd length = Eigen::VectorXd::Zero(space.size());
   for (const ContactEdge& edge : contact_edges(space.mesh()))
-    length(space.cell_dofs().row(edge.triangle)) += edge.length * means_on_edge(space.element(), edge.opposite);
+    length(space.cell_dofs().row(edge.triangle)) +=
+        edge.length * means_on_edge(space.element(), edge.opposite);
   return length(space.contact_dofs());
 }
 

@@ -52,7 +52,8 @@ void check_solution(const Space& space, const Solution& solution) {
   const Eigen::Index rows = layer * strain_quadrature(space.element()).weights.size();
   if (solution.u.size() != space.size() || (solution.p.size() != 0 && solution.p.size() != rows))
     throw Error(
-        fmt::format("errors: a solution of {} unknowns and {} layer stresses; accepted: {} and {}, of this space",
+        fmt::format("errors: a solution of {} unknowns and {} layer stresses; accepted: {} and {}, "
+                    "of this space",
                     solution.u.size(), solution.p.size(), space.size(), rows));
 }
 
@@ -70,7 +71,8 @@ Reference reference(const ExactTable& table) {
           [&table](double x, double y) { return table.at(x, y); }};
 }
 
-Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference) {
+Errors measure_errors(const Space& space, const Solution& solution, double epsilon,
+                      const Reference& reference) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   check_solution(space, solution);
@@ -82,28 +84,33 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
     basis.push_back(element.basis(rule.points.row(q)));
     derivative.push_back(element.derivative(rule.points.row(q)));
   }
-  for (const Eigen::Vector3d& lambda : sample_points()) sample_basis.push_back(element.basis(lambda));
+  for (const Eigen::Vector3d& lambda : sample_points())
+    sample_basis.push_back(element.basis(lambda));
 
   Errors errors;
   for (int i = 0; i < space.size(); ++i)
     errors.max_at_unknowns =
         larger(errors.max_at_unknowns,
-               std::abs(solution.u(i) - reference.value(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))));
+               std::abs(solution.u(i) - reference.value(space.dof_coordinates()(i, 0),
+                                                        space.dof_coordinates()(i, 1))));
   double l2 = 0, gradient2 = 0;
   errors.by_triangle.setZero(mesh.triangle_count());
   Eigen::Index row = 0;
   const Eigen::MatrixXd stress = layer_stress_values(element, rule.points);
   Eigen::VectorXd u(space.cell_dofs().cols());
-  Eigen::MatrixX2d slopes(u.size(), 2);  // of the basis; here, since both would be allocated per triangle and point
+  Eigen::MatrixX2d slopes(
+      u.size(), 2);  // of the basis; here, since both would be allocated per triangle and point
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     u = solution.u(space.cell_dofs().row(t));
     for (std::size_t k = 0; k < sample_basis.size(); ++k) {
       const Eigen::Vector2d x = point_in(mesh, t, sample_points()[k]);
-      errors.max = larger(errors.max, std::abs(u.dot(sample_basis[k]) - reference.value(x(0), x(1))));
+      errors.max =
+          larger(errors.max, std::abs(u.dot(sample_basis[k]) - reference.value(x(0), x(1))));
     }
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     double& energy2 = errors.by_triangle(t);
-    const bool in_layer = mesh.region[t] == Region::layer, stiff = in_layer && solution.p.size() > 0;
+    const bool in_layer = mesh.region[t] == Region::layer,
+               stiff = in_layer && solution.p.size() > 0;
     for (Eigen::Index q = 0; q < points; ++q) {
       const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
       const double weight = rule.weights(q) * mesh.area(t);
@@ -115,7 +122,8 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
       gradient2 += weight * de.squaredNorm();
       if (stiff) {
         // epsilon^-2 (d/dy e)^2 = epsilon^2 (p_h - p)^2, which also holds at epsilon = 0
-        const double dp = stress.row(q).dot(solution.p.segment(row, stress.cols())) - exact.layer_stress;
+        const double dp =
+            stress.row(q).dot(solution.p.segment(row, stress.cols())) - exact.layer_stress;
         energy2 += weight * (de(0) * de(0) + epsilon * epsilon * dp * dp);
       } else {
         energy2 += weight * de.squaredNorm();
@@ -132,20 +140,25 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
 
 double slope(const std::vector<double>& h, const std::vector<double>& errors) {
   if (h.size() != errors.size() || h.size() < 2)
-    throw Error(fmt::format("slope: {} errors for {} mesh widths; accepted: one per width, of two widths or more",
-                            errors.size(), h.size()));
-  const Eigen::ArrayXd x = Eigen::Map<const Eigen::ArrayXd>(h.data(), static_cast<Eigen::Index>(h.size())).log();
+    throw Error(fmt::format(
+        "slope: {} errors for {} mesh widths; accepted: one per width, of two widths or more",
+        errors.size(), h.size()));
+  const Eigen::ArrayXd x =
+      Eigen::Map<const Eigen::ArrayXd>(h.data(), static_cast<Eigen::Index>(h.size())).log();
   const Eigen::ArrayXd y =
-      Eigen::Map<const Eigen::ArrayXd>(errors.data(), static_cast<Eigen::Index>(errors.size())).log();
+      Eigen::Map<const Eigen::ArrayXd>(errors.data(), static_cast<Eigen::Index>(errors.size()))
+          .log();
   const Eigen::ArrayXd dx = x - x.mean();
   return (dx * (y - y.mean())).sum() / dx.square().sum();
 }
 
 double energy(const VariationalInequality& problem, const Solution& solution) {
   if (solution.u.size() != problem.size() || solution.p.size() != problem.b.rows())
-    throw Error(fmt::format("energy: a solution of {} unknowns and {} rows of B; accepted: {} and {}, of this problem",
-                            solution.u.size(), solution.p.size(), problem.size(), problem.b.rows()));
-  const double stiff = solution.p.dot(problem.compliances().cwiseProduct(problem.m).cwiseProduct(solution.p));
+    throw Error(fmt::format(
+        "energy: a solution of {} unknowns and {} rows of B; accepted: {} and {}, of this problem",
+        solution.u.size(), solution.p.size(), problem.size(), problem.b.rows()));
+  const double stiff =
+      solution.p.dot(problem.compliances().cwiseProduct(problem.m).cwiseProduct(solution.p));
   return 0.5 * (solution.u.dot(problem.a1 * solution.u) + stiff) - problem.load.dot(solution.u) +
          friction_energy(problem.bounds, solution.u);
 }

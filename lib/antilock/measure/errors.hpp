@@ -48,7 +48,8 @@ struct Errors {
 };
 
 /// Returns the errors of a solution. epsilon is that of the scene.
-Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference);
+Errors measure_errors(const Space& space, const Solution& solution, double epsilon,
+                      const Reference& reference);
 
 /// Returns the least-squares slope of log(error) against log(h), and NaN where an error or an h is
 /// not positive. Throws Error for fewer than two pairs and for lists of different lengths.

@@ -41,13 +41,16 @@ PointValues::PointValues(const Space& space) : space_(space) {
   std::vector<Box> boxes(triangles.size());
   for (std::size_t k = 0; k < triangles.size(); ++k) {
     triangles[k] = std::min(static_cast<int>(k), mesh.triangle_count() - 1);
-    for (const int v : mesh.triangles.row(triangles[k])) boxes[k].extend(mesh.vertices.row(v).transpose());
+    for (const int v : mesh.triangles.row(triangles[k]))
+      boxes[k].extend(mesh.vertices.row(v).transpose());
   }
   tree_.init(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
 }
 
-std::optional<PointValues::Location> PointValues::locate(const Eigen::Vector2d& x, double outside) const {
-  // a point with lambda >= -outside lies at most 2 outside diameters beyond the triangle, and lambda is rounded
+std::optional<PointValues::Location> PointValues::locate(const Eigen::Vector2d& x,
+                                                         double outside) const {
+  // a point with lambda >= -outside lies at most 2 outside diameters beyond the triangle, and
+  // lambda is rounded
   Search search{space_.mesh(), x, outside, 2 * outside + 1e-9};
   Eigen::BVIntersect(tree_, search);
   return search.found.triangle >= 0 ? std::optional(search.found) : std::nullopt;

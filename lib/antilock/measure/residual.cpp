@@ -14,24 +14,29 @@ Quadrature refined(const Quadrature& rule) {
   const Eigen::Index n = rule.weights.size();
   Quadrature fine{Eigen::MatrixX3d(4 * n, 3), Eigen::VectorXd(4 * n)};
   for (int part = 0; part < 4; ++part) {
-    Eigen::Matrix3d corners = 0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity());  // the one in the middle
+    Eigen::Matrix3d corners =
+        0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity());  // the one in the middle
     if (part < 3)
-      corners = 0.5 * Eigen::Matrix3d::Identity() + 0.5 * Eigen::Vector3d::Ones() * Eigen::RowVector3d::Unit(part);
+      corners = 0.5 * Eigen::Matrix3d::Identity() +
+                0.5 * Eigen::Vector3d::Ones() * Eigen::RowVector3d::Unit(part);
     fine.points.middleRows(part * n, n) = rule.points * corners;
     fine.weights.segment(part * n, n) = rule.weights / 4;
   }
   return fine;
 }
 
-/// Adds int w phi_i + q . grad phi_i to each sum(i), where `known` holds w as the value and q as the gradient.
+/// Adds int w phi_i + q . grad phi_i to each sum(i), where `known` holds w as the value and q as
+/// the gradient.
 void add_products(const Space& space, int t, const Quadrature& rule,
-                  const std::function<ExactPoint(const Eigen::Vector2d&)>& known, Eigen::VectorXd& sum) {
+                  const std::function<ExactPoint(const Eigen::Vector2d&)>& known,
+                  Eigen::VectorXd& sum) {
   const TriangleMesh& mesh = space.mesh();
   const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const ExactPoint here = known(point_in(mesh, t, rule.points.row(q)));
-    const Eigen::VectorXd product = space.element().basis(rule.points.row(q)) * here.value +
-                                    space.element().derivative(rule.points.row(q)) * (lambda * here.gradient);
+    const Eigen::VectorXd product =
+        space.element().basis(rule.points.row(q)) * here.value +
+        space.element().derivative(rule.points.row(q)) * (lambda * here.gradient);
     sum(space.cell_dofs().row(t)) += rule.weights(q) * mesh.area(t) * product;
   }
 }
@@ -48,8 +53,8 @@ bool across(const TriangleMesh& mesh, int t, const std::vector<double>& breaks) 
 
 }  // namespace
 
-Eigen::VectorXd consistency_residual(const Space& space, const Eigen::VectorXd& load, const Reference& exact,
-                                     const std::vector<double>& breaks) {
+Eigen::VectorXd consistency_residual(const Space& space, const Eigen::VectorXd& load,
+                                     const Reference& exact, const std::vector<double>& breaks) {
   static const Quadrature fine = refined(refined(refined(refined(radon_rule()))));
   const TriangleMesh& mesh = space.mesh();
   Eigen::VectorXd residual = -load;
@@ -61,7 +66,8 @@ Eigen::VectorXd consistency_residual(const Space& space, const Eigen::VectorXd& 
       if (in_layer) known.gradient(1) = known.layer_stress;
       return known;
     };
-    add_products(space, t, in_layer && across(mesh, t, breaks) ? fine : load_rule(space.element()), flux, residual);
+    add_products(space, t, in_layer && across(mesh, t, breaks) ? fine : load_rule(space.element()),
+                 flux, residual);
   }
   return residual;
 }
@@ -90,13 +96,15 @@ Eigen::VectorXd contact_work(const Space& space, const Profile& g) {
 Eigen::VectorXd interpolant(const Space& space, const Field& u) {
   Eigen::VectorXd values(space.size());
   if (space.element().dofs_per_vertex() > 0) {
-    for (int i = 0; i < space.size(); ++i) values(i) = u(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1));
+    for (int i = 0; i < space.size(); ++i)
+      values(i) = u(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1));
     return values;
   }
   const TriangleMesh& mesh = space.mesh();  // the unknowns of Crouzeix-Raviart are the edges
   const double s = 0.5 * std::sqrt(0.6);
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
+    const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)),
+                             b = mesh.vertices.row(mesh.edges(e, 1));
     const auto at = [&](double r) { return u(a(0) + r * (b(0) - a(0)), a(1) + r * (b(1) - a(1))); };
     values(e) = (5 * at(0.5 - s) + 8 * at(0.5) + 5 * at(0.5 + s)) / 18;
   }

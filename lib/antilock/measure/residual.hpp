@@ -15,8 +15,8 @@ namespace antilock {
 /// error). `load` is L(phi_i). The stiff part is computed from the layer stress, which is finite at
 /// epsilon = 0. `breaks` lists the x where that stress jumps, the ends of contact. A layer triangle
 /// that contains such an x is integrated by 1792 points, the others by load_rule.
-Eigen::VectorXd consistency_residual(const Space& space, const Eigen::VectorXd& load, const Reference& exact,
-                                     const std::vector<double>& breaks);
+Eigen::VectorXd consistency_residual(const Space& space, const Eigen::VectorXd& load,
+                                     const Reference& exact, const std::vector<double>& breaks);
 
 /// Returns the N values (u, phi_i)_h of the broken H1 inner product, by the rule of measure_errors,
 /// for projections of u.

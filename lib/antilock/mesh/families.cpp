@@ -21,7 +21,9 @@ MeshFamily unstructured(const Domain& domain) {
 
 const std::vector<MeshFamily>& mesh_families() {
   // an equilateral triangle of base 1/n is sqrt(3) / (2 n) high
-  const auto lines = [](int n) { return static_cast<int>(std::lround(2 * n / std::numbers::sqrt3)); };
+  const auto lines = [](int n) {
+    return static_cast<int>(std::lround(2 * n / std::numbers::sqrt3));
+  };
   static const std::vector<MeshFamily> all{
       structured(),
       {"layered", [](int n) { return layered_mesh(n); }},

@@ -21,7 +21,8 @@ void check_mesh_request(int cells, int most, const Domain& domain);
 /// Returns the structured mesh of Figure 3: `cells` squares per unit side, each cut by a diagonal.
 /// A layer has max(2, round(layer_depth * cells)) rows, so that its cells are nearly square. Throws
 /// Error unless 1 <= cells <= 2048.
-TriangleMesh structured_mesh(int cells, const Domain& domain = {}, Diagonal diagonal = Diagonal::right);
+TriangleMesh structured_mesh(int cells, const Domain& domain = {},
+                             Diagonal diagonal = Diagonal::right);
 
 /// Returns the structured mesh with moved vertices: each vertex inside of the body or of the layer
 /// moves by up to amount * h in x and in y. The directions are random, but the same in every call
@@ -49,7 +50,8 @@ enum class Mesher { mesh_adapt = 1, delaunay = 5, frontal = 6 };  ///< gmsh's ow
 /// than the layer. In that case k is the largest number for which they are not. Every triangle is
 /// then cut into four by its midpoints, k times. So the angles are those of the coarse mesh, and
 /// inside of its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512.
-TriangleMesh unstructured_mesh(int cells, const Domain& domain = {}, Mesher mesher = Mesher::frontal);
+TriangleMesh unstructured_mesh(int cells, const Domain& domain = {},
+                               Mesher mesher = Mesher::frontal);
 
 /// Returns a mesh of the disc of radius 1 with a clamped rim: 6 rings^2 triangles with edges of
 /// about 1/rings and no angle far above 90 degrees. Its boundary is the polygon through 6 rings

@@ -25,7 +25,8 @@ std::string text_of(std::istream& in) {
 Geometry read_geometry(const std::filesystem::path& file) {
   const std::filesystem::path kind = file.extension();
   const std::string name = printable(file.string(), 1000), accepted = "a .geo or .brep file";
-  if (kind != ".geo" && kind != ".brep") throw Error(name + ": is neither .geo nor .brep; accepted: one of the two");
+  if (kind != ".geo" && kind != ".brep")
+    throw Error(name + ": is neither .geo nor .brep; accepted: one of the two");
   const auto in = open_file(file, name, accepted);
   if (in->peek() == EOF) throw Error(name + ": is empty; accepted: " + accepted);
   try {

@@ -22,19 +22,19 @@ using Words = std::set<std::string, std::less<>>;
 // statement begins. A loop keeps its statements, and its end is found by words.
 const Words commands = {
     // shapes, and what they are made of
-    "Point", "Line", "Curve", "Circle", "Ellipse", "Ellipsis", "Spline", "CatmullRom", "BSpline", "Bezier", "Wire",
-    "Plane", "Ruled", "Surface", "Rectangle", "Disk", "Volume", "Box", "Block", "Sphere", "Cylinder", "Cone", "Torus",
-    "Wedge",
+    "Point", "Line", "Curve", "Circle", "Ellipse", "Ellipsis", "Spline", "CatmullRom", "BSpline",
+    "Bezier", "Wire", "Plane", "Ruled", "Surface", "Rectangle", "Disk", "Volume", "Box", "Block",
+    "Sphere", "Cylinder", "Cone", "Torus", "Wedge",
     // what is done to them
-    "Translate", "Rotate", "Symmetry", "Dilate", "Affine", "Extrude", "Layers", "Recombine", "Delete", "Recursive",
-    "Coherence", "BooleanUnion", "BooleanFuse", "BooleanIntersection", "BooleanCommon", "BooleanDifference",
-    "BooleanCut", "BooleanFragments", "BooleanCoherence",
+    "Translate", "Rotate", "Symmetry", "Dilate", "Affine", "Extrude", "Layers", "Recombine",
+    "Delete", "Recursive", "Coherence", "BooleanUnion", "BooleanFuse", "BooleanIntersection",
+    "BooleanCommon", "BooleanDifference", "BooleanCut", "BooleanFragments", "BooleanCoherence",
     // what is asked of them
     "In", "BoundingBox", "newp", "newl", "newc", "newll", "news", "newsl", "newv", "newf", "newreg",
     // numbers
-    "Pi", "Exp", "Log", "Log10", "Sqrt", "Sin", "Asin", "ArcSin", "Cos", "Acos", "ArcCos", "Tan", "Atan", "ArcTan",
-    "Atan2", "ArcTan2", "Sinh", "Cosh", "Tanh", "Fabs", "Abs", "Floor", "Ceil", "Round", "Fmod", "Modulo", "Hypot",
-    "Min", "Max", "List", "LinSpace", "Unique"};
+    "Pi", "Exp", "Log", "Log10", "Sqrt", "Sin", "Asin", "ArcSin", "Cos", "Acos", "ArcCos", "Tan",
+    "Atan", "ArcTan", "Atan2", "ArcTan2", "Sinh", "Cosh", "Tanh", "Fabs", "Abs", "Floor", "Ceil",
+    "Round", "Fmod", "Modulo", "Hypot", "Min", "Max", "List", "LinSpace", "Unique"};
 
 // Commands that are no keywords of gmsh's scanner: it reads them as names, and would take them for
 // variables elsewhere. So each of them is accepted in its own form alone (named_command).
@@ -46,25 +46,38 @@ const Words counted_numbers = {"newl",  "newc", "newll",  "newcl",   "news",
 
 // Statements that are left out may hold these words beside variables, fields and the names of
 // options. None of them changes the drawing or a variable, so that nothing is missed.
-const Words without_effect = {"Point", "Line", "Curve", "Surface", "Volume", "In", "BoundingBox", "newp", "newl",
-                              "newc", "newll", "newcl", "news", "newsl", "newv", "newf", "newreg", "Pi", "Exp", "Log",
-                              "Log10", "Sqrt", "Sin", "Asin", "ArcSin", "Cos", "Acos", "ArcCos", "Tan", "Atan",
-                              "ArcTan", "Atan2", "ArcTan2", "Sinh", "Cosh", "Tanh", "Fabs", "Abs", "Floor", "Ceil",
-                              "Round", "Fmod", "Modulo", "Hypot", "Min", "Max", "List", "LinSpace", "Unique", "Field",
-                              "Length", "Using", "Progression", "Power", "Bump", "Beta", "Left", "Right", "Alternate",
-                              "AlternateLeft", "AlternateRight", "Sprintf", "Str", "StrCat",
-                              // the menu of a constant
-                              "Name", "Label", "Help", "Units", "Step", "Range", "Choices", "Visible", "ReadOnly",
-                              "ReadOnlyRange", "Highlight", "AutoCheck", "Closed", "NumberFormat"};
+const Words without_effect = {
+    "Point", "Line", "Curve", "Surface", "Volume", "In", "BoundingBox", "newp", "newl", "newc",
+    "newll", "newcl", "news", "newsl", "newv", "newf", "newreg", "Pi", "Exp", "Log", "Log10",
+    "Sqrt", "Sin", "Asin", "ArcSin", "Cos", "Acos", "ArcCos", "Tan", "Atan", "ArcTan", "Atan2",
+    "ArcTan2", "Sinh", "Cosh", "Tanh", "Fabs", "Abs", "Floor", "Ceil", "Round", "Fmod", "Modulo",
+    "Hypot", "Min", "Max", "List", "LinSpace", "Unique", "Field", "Length", "Using", "Progression",
+    "Power", "Bump", "Beta", "Left", "Right", "Alternate", "AlternateLeft", "AlternateRight",
+    "Sprintf", "Str", "StrCat",
+    // the menu of a constant
+    "Name", "Label", "Help", "Units", "Step", "Range", "Choices", "Visible", "ReadOnly",
+    "ReadOnlyRange", "Highlight", "AutoCheck", "Closed", "NumberFormat"};
 
 // Accepted at the beginning of a statement alone, each in its own form.
 const Words openings = {"For", "EndFor", "DefineConstant", "SetFactory", "Geometry"};
 
 // Statements that begin so concern the mesh or the screen, and are left out.
-const Words mesh_alone = {
-    "Mesh",        "Physical",    "Field",         "Background", "Characteristic",       "MeshSize",
-    "Transfinite", "Recombine",   "Smoother",      "Periodic",   "MeshSizeFromBoundary", "MeshAlgorithm",
-    "Reverse",     "ReverseMesh", "BoundaryLayer", "Printf"};
+const Words mesh_alone = {"Mesh",
+                          "Physical",
+                          "Field",
+                          "Background",
+                          "Characteristic",
+                          "MeshSize",
+                          "Transfinite",
+                          "Recombine",
+                          "Smoother",
+                          "Periodic",
+                          "MeshSizeFromBoundary",
+                          "MeshAlgorithm",
+                          "Reverse",
+                          "ReverseMesh",
+                          "BoundaryLayer",
+                          "Printf"};
 
 // Fields of mesh sizes; those that read files or start programs (Structured, PostView,
 // ExternalProcess) are refused.
@@ -121,8 +134,9 @@ const Words assignments = {"=", "+=", "-=", "*=", "/="};
 
 // Signs that are accepted: all of gmsh's but `.` and `::` (members of structures and options), `%`
 // (by 0 it ends the program), and those of bits, of which `>>` is Printf's, too.
-const Words signs = {"(", ")", "[", "]", "{", "}", ",", ";", ":", "...", "=",  "+=", "-=", "*=", "/=", "++", "--",
-                     "+", "-", "*", "/", "^", "?", "!", "<", ">", "<=",  ">=", "==", "!=", "&&", "||", "~",  "#"};
+const Words signs = {
+    "(", ")", "[", "]", "{", "}", ",", ";", ":", "...", "=",  "+=", "-=", "*=", "/=", "++", "--",
+    "+", "-", "*", "/", "^", "?", "!", "<", ">", "<=",  ">=", "==", "!=", "&&", "||", "~",  "#"};
 
 // Signs that gmsh reads as one, the longest first.
 constexpr std::string_view long_signs[] = {"...", "+=", "-=", "*=", "/=", "::", "||", "&&",
@@ -159,7 +173,8 @@ class Scanner {
   explicit Scanner(std::string_view text) : text_(text) {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // the byte order mark of UTF-8
     if (const auto nul = text.find('\0'); nul != text.npos)
-      refuse(1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n')),
+      refuse(1 + static_cast<int>(std::count(
+                     text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n')),
              "a byte 0", "is no sign of a script; accepted: text");
   }
 
@@ -182,7 +197,9 @@ class Scanner {
  private:
   using Kind = Token::Kind;
 
-  char sign(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
+  char sign(std::size_t ahead = 0) const {
+    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
+  }
   void advance(std::size_t length) {
     const std::string_view passed = text_.substr(at_, length);
     line_ += static_cast<int>(std::count(passed.begin(), passed.end(), '\n'));
@@ -192,13 +209,14 @@ class Scanner {
   /// Behind `closing`, which is looked for from `from` on. Throws Error where it is missing.
   std::size_t length_to(std::string_view closing, std::size_t from, std::string_view name) const {
     const std::size_t end = text_.find(closing, at_ + from);
-    if (end == text_.npos) refuse(line_, name, fmt::format("has no end; accepted: {} behind it", closing));
+    if (end == text_.npos)
+      refuse(line_, name, fmt::format("has no end; accepted: {} behind it", closing));
     return end + closing.size() - at_;
   }
 
-  /// Whether a comment between `from` and the end of its line, which begins at `start`, is open where
-  /// gmsh may end a part of the text: at a line feed, at a carriage return, and behind 8192 signs.
-  /// From `from` to the place that is reached there are blanks and comments alone.
+  /// Whether a comment between `from` and the end of its line, which begins at `start`, is open
+  /// where gmsh may end a part of the text: at a line feed, at a carriage return, and behind 8192
+  /// signs. From `from` to the place that is reached there are blanks and comments alone.
   bool ends_elsewhere(std::size_t from, std::size_t start) const {
     constexpr std::size_t longest = 4000;
     for (std::size_t at = from; at < at_ && text_[at] != '\n';) {
@@ -221,7 +239,8 @@ class Scanner {
   bool skip_blanks() {
     while (at_ < text_.size()) {
       if (sign() == '\r' && sign(1) != '\n')
-        refuse(line_, "a carriage return", "ends no line for gmsh; accepted: lines that end in a line feed");
+        refuse(line_, "a carriage return",
+               "ends no line for gmsh; accepted: lines that end in a line feed");
       if (std::string_view(" \t\n\r\f").find(sign()) != std::string_view::npos)
         advance(1);
       else if (sign() == '/' && sign(1) == '/')
@@ -236,8 +255,10 @@ class Scanner {
 
   std::pair<Kind, std::size_t> next() const {
     if (is_letter(sign())) return {Kind::word, word_length()};
-    if (is_digit(sign()) || (sign() == '.' && is_digit(sign(1)))) return {Kind::number, number_length()};
-    if (sign() == '"') return {Kind::text, length_to("\"", 1, "a text")};  // a backslash hides no quotation mark
+    if (is_digit(sign()) || (sign() == '.' && is_digit(sign(1))))
+      return {Kind::number, number_length()};
+    if (sign() == '"')
+      return {Kind::text, length_to("\"", 1, "a text")};  // a backslash hides no quotation mark
     if (sign() == '\'') return {Kind::text, length_to("'", 1, "a text")};
     for (const std::string_view s : long_signs)
       if (text_.substr(at_, s.size()) == s) return {Kind::sign, s.size()};
@@ -248,7 +269,8 @@ class Scanner {
     std::size_t length = 1;
     while (is_letter(sign(length)) || is_digit(sign(length))) ++length;
     if (length > longest)
-      refuse(line_, text_.substr(at_, length), fmt::format("is too long; accepted: up to {} letters", longest));
+      refuse(line_, text_.substr(at_, length),
+             fmt::format("is too long; accepted: up to {} letters", longest));
     return length;
   }
   std::size_t digits(std::size_t from) const {
@@ -260,7 +282,8 @@ class Scanner {
     constexpr std::size_t longest = 100;
     const std::size_t length = unbounded_number_length();
     if (length > longest)
-      refuse(line_, text_.substr(at_, 10), fmt::format("is too long a number; accepted: up to {} signs", longest));
+      refuse(line_, text_.substr(at_, 10),
+             fmt::format("is too long a number; accepted: up to {} signs", longest));
     return length;
   }
   std::size_t unbounded_number_length() const {
@@ -299,7 +322,8 @@ void find_structure(std::vector<Token>& tokens) {
     begins = token.is(";") || token.is("}") || token.is(")") || token.is("EndFor");
   }
   if (!open.empty())
-    refuse(tokens[open.back()].line, tokens[open.back()].text, "is never closed; accepted: brackets in pairs");
+    refuse(tokens[open.back()].line, tokens[open.back()].text,
+           "is never closed; accepted: brackets in pairs");
 }
 
 /// Writes the script anew, token by token.
@@ -337,7 +361,8 @@ class Rewriter {
         i = copy(i);
       }
     }
-    if (!loops.empty()) refuse(loops.back(), "For", "is never ended; accepted: a loop with its EndFor");
+    if (!loops.empty())
+      refuse(loops.back(), "For", "is never ended; accepted: a loop with its EndFor");
     return script_ + "\n";
   }
 
@@ -345,11 +370,14 @@ class Rewriter {
   using Kind = Token::Kind;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  bool is(std::size_t i, std::string_view wanted) const { return i < tokens_.size() && tokens_[i].is(wanted); }
+  bool is(std::size_t i, std::string_view wanted) const {
+    return i < tokens_.size() && tokens_[i].is(wanted);
+  }
   bool is_word(std::size_t i) const { return i < tokens_.size() && tokens_[i].is_word(); }
   void expect(std::size_t i, std::string_view wanted, std::size_t statement) const {
     if (!is(i, wanted))
-      refuse(tokens_[statement].line, tokens_[statement].text, fmt::format("accepted: a {} in it here", wanted));
+      refuse(tokens_[statement].line, tokens_[statement].text,
+             fmt::format("accepted: a {} in it here", wanted));
   }
 
   /// The closed bracket of For (...) or For name In {...}.
@@ -365,7 +393,8 @@ class Rewriter {
   /// end with the line is read only once, or together with the beginning of the loop.
   void nothing_behind(std::size_t last, const Token& word) const {
     if (tokens_[last].open_line)
-      refuse(tokens_[last].line, word.text, "accepted: no comment behind it that goes on beyond the line");
+      refuse(tokens_[last].line, word.text,
+             "accepted: no comment behind it that goes on beyond the line");
     if (last + 1 < tokens_.size() && tokens_[last + 1].line == tokens_[last].line)
       refuse(tokens_[last].line, word.text, "accepted: a new line behind it");
   }
@@ -374,7 +403,8 @@ class Rewriter {
   std::size_t end_of(std::size_t statement) const {
     std::size_t i = statement;
     while (i < tokens_.size() && !is(i, ";")) i = std::max(i, tokens_[i].partner) + 1;
-    if (i >= tokens_.size()) refuse(tokens_[statement].line, tokens_[statement].text, "has no end; accepted: a ;");
+    if (i >= tokens_.size())
+      refuse(tokens_[statement].line, tokens_[statement].text, "has no end; accepted: a ;");
     return i;
   }
 
@@ -397,7 +427,8 @@ class Rewriter {
       if (tokens_[i].is("For") && is_word(i + 1)) {
         variables_.insert(tokens_[i + 1].text);
       } else if (tokens_[i].is("DefineConstant") && is(i + 1, "[")) {
-        for (std::size_t k = i + 2; k < tokens_[i + 1].partner; k = std::max(k, tokens_[k].partner) + 1)
+        for (std::size_t k = i + 2; k < tokens_[i + 1].partner;
+             k = std::max(k, tokens_[k].partner) + 1)
           if (is_word(k) && !tokens_[k - 1].is("=")) variables_.insert(tokens_[k].text);
       } else if (is_assigned(i)) {
         variables_.insert(tokens_[i].text);
@@ -415,7 +446,8 @@ class Rewriter {
       if (!tokens_[i].first) continue;
       if (is(i, "For")) loops.push_back(i);
       if (is(i, "EndFor") && !loops.empty()) loops.pop_back();
-      if (is(i, "Physical") && first_physical_ == none) first_physical_ = loops.empty() ? i : loops.front();
+      if (is(i, "Physical") && first_physical_ == none)
+        first_physical_ = loops.empty() ? i : loops.front();
       if (is_field_number(i)) field_numbers_.insert(tokens_[i].text);
     }
   }
@@ -431,7 +463,8 @@ class Rewriter {
              "numbers shapes by the Physical groups before it, which are left out; accepted: "
              "Physical behind all shapes");
     if (token.is("newf") && (i < 2 || !is_field_number(i - 2)))
-      refuse(token.line, "newf", "counts fields, which are left out; accepted: NAME = newf; for a Field[NAME]");
+      refuse(token.line, "newf",
+             "counts fields, which are left out; accepted: NAME = newf; for a Field[NAME]");
     if (token.is_word() && field_numbers_.contains(token.text) && !is_field_number(i))
       refuse(token.line, token.text,
              "is the number of a field, and fields are left out; accepted: another name for "
@@ -456,12 +489,13 @@ class Rewriter {
   /// Marks the brackets of an index behind a variable whose last token is i. gmsh compares an index
   /// with the length of the list alone, so that a negative one reads and writes memory before it.
   /// Round(1/(1/Max(0, m))) is m for m = 1, 2, ..., and a division by zero, which gmsh reports, for
-  /// other numbers. With m = n + 1, and with 1e6 + 1 - n, it reports an index n outside of 0 to 1e6.
-  /// The outer Min and Max keep it inside whatever a failed division leaves.
+  /// other numbers. With m = n + 1, and with 1e6 + 1 - n, it reports an index n outside of 0 to
+  /// 1e6. The outer Min and Max keep it inside whatever a failed division leaves.
   void guard_index(std::size_t i) {
     if ((!is(i + 1, "[") && !is(i + 1, "(")) || tokens_[i + 1].partner == i + 2) return;
     if (is(i + 2, "{"))
-      refuse(tokens_[i + 1].line, tokens_[i].text, "a list of indices is not accepted; accepted: one index");
+      refuse(tokens_[i + 1].line, tokens_[i].text,
+             "a list of indices is not accepted; accepted: one index");
     guarded_.insert({i + 1, tokens_[i + 1].partner});
   }
 
@@ -486,14 +520,15 @@ class Rewriter {
       guard_index(i);
     } else {
       const bool member = is(i + 1, ".") && is_word(i + 2);
-      refuse(token.line, member ? token.text + "." + tokens_[i + 2].text : token.text,
-             "is neither a command that draws nor a variable of the script; " + std::string(accepted));
+      refuse(
+          token.line, member ? token.text + "." + tokens_[i + 2].text : token.text,
+          "is neither a command that draws nor a variable of the script; " + std::string(accepted));
     }
     return i + 1;
   }
-  /// v_1, v_2, ... in the order in which the script names them. gmsh looks for the end of a loop that it skips letter
-  /// by letter, inside of names, too: a name of the script would take part in it. To gmsh x~{1} is x_1, so that numbers
-  /// behind the name are kept.
+  /// v_1, v_2, ... in the order in which the script names them. gmsh looks for the end of a loop
+  /// that it skips letter by letter, inside of names, too: a name of the script would take part in
+  /// it. To gmsh x~{1} is x_1, so that numbers behind the name are kept.
   std::string variable(const std::string& name) {
     std::size_t end = name.size();
     for (std::size_t at = end; at > 0;) {
@@ -501,23 +536,27 @@ class Rewriter {
       if (at == end || at < 2 || name[at - 1] != '_') break;
       end = --at;
     }
-    const int number = numbers_.try_emplace(name.substr(0, end), static_cast<int>(numbers_.size()) + 1).first->second;
+    const int number =
+        numbers_.try_emplace(name.substr(0, end), static_cast<int>(numbers_.size()) + 1)
+            .first->second;
     return fmt::format("v_{}{}", number, name.substr(end));
   }
   /// name~{...}~{...}: gmsh writes a name that it does not know into a text of 1,024 letters.
   void refuse_long_chains(std::size_t i) const {
     constexpr int longest = 8;  // of up to 12 letters each
     int links = 0;
-    for (std::size_t at = i; is(at, "~") && is(at + 1, "{"); at = tokens_[at + 1].partner + 1) ++links;
+    for (std::size_t at = i; is(at, "~") && is(at + 1, "{"); at = tokens_[at + 1].partner + 1)
+      ++links;
     if (links > longest)
-      refuse(tokens_[i].line, "~", fmt::format("stands {} times in a row; accepted: up to {}", links, longest));
+      refuse(tokens_[i].line, "~",
+             fmt::format("stands {} times in a row; accepted: up to {}", links, longest));
   }
   /// Line Loop(...), Curve Loop(...), Wire Loop(...), Surface Loop(...); the others before a {.
   void named_command(std::size_t i) {
     const Token& token = tokens_[i];
     const bool loop = token.is("Loop");
-    const bool behind_its_kind =
-        i > 0 && (is(i - 1, "Line") || is(i - 1, "Curve") || is(i - 1, "Wire") || is(i - 1, "Surface"));
+    const bool behind_its_kind = i > 0 && (is(i - 1, "Line") || is(i - 1, "Curve") ||
+                                           is(i - 1, "Wire") || is(i - 1, "Surface"));
     if (loop ? !behind_its_kind || !is(i + 1, "(") : !is(i + 1, "{"))
       refuse(token.line, token.text,
              loop ? "is no variable; accepted: Line Loop(...), Curve Loop(...), Surface Loop(...)"
@@ -535,7 +574,8 @@ class Rewriter {
       put(i, "Min ( 1e6 , Max ( 0 , 1e6 + 1 - Round ( 1 / ( 1 / Max ( 0 , 1e6 + 2 -");
       put(i, "Round ( 1 / ( 1 / Max ( 0 , 1 + Floor (");
     }
-    if (closes && token.partner > 1 && is(token.partner - 1, "~")) guard_index(i);  // name~{...}[...]
+    if (closes && token.partner > 1 && is(token.partner - 1, "~"))
+      guard_index(i);  // name~{...}[...]
   }
   void copy_all(std::size_t from, std::size_t to) {
     while (from < to) from = copy(from);
@@ -582,7 +622,8 @@ class Rewriter {
     const std::size_t behind = tokens_[statement + 1].partner + 1;
     if (is(behind, "=") && (!is_word(behind + 1) || !fields.contains(tokens_[behind + 1].text)))
       refuse(tokens_[statement].line, "Field = " + tokens_[behind + 1].text,
-             fmt::format("is no field that is known to read no file; accepted: {}", fmt::join(fields, ", ")));
+             fmt::format("is no field that is known to read no file; accepted: {}",
+                         fmt::join(fields, ", ")));
     return end + 1;
   }
 
@@ -592,7 +633,8 @@ class Rewriter {
     const std::size_t end = end_of(statement);
     expect(statement + 1, "[", statement);
     const std::size_t last = tokens_[statement + 1].partner;
-    if (last + 1 != end) refuse(tokens_[statement].line, "DefineConstant", "accepted: DefineConstant[...];");
+    if (last + 1 != end)
+      refuse(tokens_[statement].line, "DefineConstant", "accepted: DefineConstant[...];");
     put(statement, "DefineConstant");
     put(statement + 1, "[");
     for (std::size_t i = statement + 2; i < last;) {
@@ -602,7 +644,8 @@ class Rewriter {
       }
       const std::size_t closing = tokens_[i].partner;
       std::size_t comma = i + 1;
-      while (comma < closing && !is(comma, ",")) comma = std::max(comma, tokens_[comma].partner) + 1;
+      while (comma < closing && !is(comma, ","))
+        comma = std::max(comma, tokens_[comma].partner) + 1;
       copy_all(i, comma);
       refuse_effects(statement, comma, closing);
       refuse_shared_names(comma, closing);
@@ -618,7 +661,8 @@ class Rewriter {
     for (std::size_t i = from; i < to; ++i) {
       if (!is(i, "Name")) continue;
       const Token& name = tokens_[i + 1];
-      if (name.kind != Kind::text) refuse(name.line, "Name", "accepted: a text in quotation marks behind it");
+      if (name.kind != Kind::text)
+        refuse(name.line, "Name", "accepted: a text in quotation marks behind it");
       if (!names_.insert(name.text.substr(1, name.text.size() - 2)).second)
         refuse(name.line, name.text, "names two constants; accepted: a Name for each");
     }
@@ -630,9 +674,11 @@ class Rewriter {
     expect(i + 3, ")", i);
     expect(i + 4, ";", i);
     const Token& name = tokens_[i + 2];
-    const std::string known = name.kind == Kind::text ? name.text.substr(1, name.text.size() - 2) : "";
+    const std::string known =
+        name.kind == Kind::text ? name.text.substr(1, name.text.size() - 2) : "";
     if (known != "OpenCASCADE" && known != "Built-in")
-      refuse(name.line, name.text, "is no kernel; accepted: SetFactory(\"OpenCASCADE\"), SetFactory(\"Built-in\")");
+      refuse(name.line, name.text,
+             "is no kernel; accepted: SetFactory(\"OpenCASCADE\"), SetFactory(\"Built-in\")");
     put(i, "SetFactory ( \"" + known + "\" ) ;");
     return i + 5;
   }
@@ -642,7 +688,8 @@ class Rewriter {
     expect(i + 1, ".", i);
     if (!is_word(i + 2) || !geometry_options.contains(tokens_[i + 2].text))
       refuse(tokens_[i].line, "Geometry." + (i + 2 < tokens_.size() ? tokens_[i + 2].text : ""),
-             fmt::format("is no option that is accepted; accepted: {}", fmt::join(geometry_options, ", ")));
+             fmt::format("is no option that is accepted; accepted: {}",
+                         fmt::join(geometry_options, ", ")));
     put(i, "Geometry . " + tokens_[i + 2].text);
     return i + 3;
   }
@@ -669,7 +716,9 @@ std::vector<std::string> geometry_script_commands() {
   return all;
 }
 
-std::vector<std::string> geometry_script_options() { return {geometry_options.begin(), geometry_options.end()}; }
+std::vector<std::string> geometry_script_options() {
+  return {geometry_options.begin(), geometry_options.end()};
+}
 
 std::string geometry_script(const std::string& text) {
   std::vector<Token> tokens = Scanner(text).tokens();

@@ -33,7 +33,8 @@ std::vector<Labelled> labelled_edges(const TriangleMesh& mesh) {
     const int triangle = mesh.edge_triangles(edge, 0);
     for (int i = 0; i < 3; ++i)  // edge i runs from vertex i+1 to vertex i+2
       if (mesh.triangle_edges(triangle, i) == edge)
-        labelled.push_back({mesh.triangles(triangle, (i + 1) % 3), mesh.triangles(triangle, (i + 2) % 3),
+        labelled.push_back({mesh.triangles(triangle, (i + 1) % 3),
+                            mesh.triangles(triangle, (i + 2) % 3),
                             physical_number(mesh.edge_tag[edge])});
   }
   return labelled;

@@ -1,5 +1,5 @@
-// Layers of congruent triangles: two lines of equally spaced vertices, one of them shifted by half a space, zipped
-// together. Lines across give rows of triangles, lines upwards columns.
+// Layers of congruent triangles: two lines of equally spaced vertices, one of them shifted by half
+// a space, zipped together. Lines across give rows of triangles, lines upwards columns.
 #include "antilock/mesh/generate.hpp"
 
 namespace antilock {
@@ -13,8 +13,8 @@ std::vector<double> spaced(int n, bool shifted) {
   return at;
 }
 
-/// `strips` of triangles with a side of 1/cells in the layer, across or upright; each vertex of Sigma has a line of the
-/// body's squares above it.
+/// `strips` of triangles with a side of 1/cells in the layer, across or upright; each vertex of
+/// Sigma has a line of the body's squares above it.
 TriangleMesh lattice(int cells, int strips, bool upright) {
   check_mesh_request(cells, 2048, {});
   check_mesh_request(strips, 4096, {});
@@ -39,15 +39,19 @@ TriangleMesh lattice(int cells, int strips, bool upright) {
     const auto middle = [&](const std::vector<int>& line, std::size_t i) {
       return vertices[line[i]](upright ? 1 : 0) + vertices[line[i + 1]](upright ? 1 : 0);
     };
-    for (std::size_t l = 0, u = 0; l + 1 < one.size() || u + 1 < next.size();) {  // whose edge has its middle first
-      const bool ours = u + 1 == next.size() || (l + 1 < one.size() && middle(one, l) <= middle(next, u));
+    for (std::size_t l = 0, u = 0;
+         l + 1 < one.size() || u + 1 < next.size();) {  // whose edge has its middle first
+      const bool ours =
+          u + 1 == next.size() || (l + 1 < one.size() && middle(one, l) <= middle(next, u));
       const int third = ours ? one[l + 1] : next[u + 1];
-      upright ? triangles.emplace_back(one[l], next[u], third) : triangles.emplace_back(one[l], third, next[u]);
+      upright ? triangles.emplace_back(one[l], next[u], third)
+              : triangles.emplace_back(one[l], third, next[u]);
       ours ? ++l : ++u;
     }
   }
-  return tag_by_position(Eigen::Map<Points>(vertices[0].data(), static_cast<Eigen::Index>(vertices.size()), 2),
-                         Eigen::Map<Triples>(triangles[0].data(), static_cast<Eigen::Index>(triangles.size()), 3));
+  return tag_by_position(
+      Eigen::Map<Points>(vertices[0].data(), static_cast<Eigen::Index>(vertices.size()), 2),
+      Eigen::Map<Triples>(triangles[0].data(), static_cast<Eigen::Index>(triangles.size()), 3));
 }
 
 }  // namespace

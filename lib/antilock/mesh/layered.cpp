@@ -32,13 +32,15 @@ SigmaEdges sigma_edges(const TriangleMesh& mesh, bool along_normals) {
     const auto corners = mesh.triangles.row(mesh.edge_triangles(e, 0));
     const Eigen::RowVector2d from = mesh.vertices.row(ends[0]);
     const Eigen::RowVector2d along = mesh.vertices.row(ends[1]) - from;
-    const Eigen::RowVector2d up = mesh.vertices(corners, Eigen::indexing::all).colwise().mean() - from;
+    const Eigen::RowVector2d up =
+        mesh.vertices(corners, Eigen::indexing::all).colwise().mean() - from;
     if (along_normals && along(0) * up(1) <= along(1) * up(0))
-      throw Error("extruded layer: the body is not above its contact edge at " + mesh.location_text(ends[0]) +
-                  "; accepted: edges with the body above them");
+      throw Error("extruded layer: the body is not above its contact edge at " +
+                  mesh.location_text(ends[0]) + "; accepted: edges with the body above them");
     edges.push_back(ends);
   }
-  if (edges.empty()) throw MeshError("extruded layer: the body has no edge in the group contact to stand on");
+  if (edges.empty())
+    throw MeshError("extruded layer: the body has no edge in the group contact to stand on");
   return edges;
 }
 
@@ -47,7 +49,8 @@ SigmaEdges sigma_edges(const TriangleMesh& mesh, bool along_normals) {
 Eigen::VectorXd curvatures(const TriangleMesh& mesh, SigmaEdges edges, double thickness) {
   const double off = on_line * body_size(mesh);
   const auto x = [&](int v) { return mesh.vertices(v, 0); };
-  std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return x(a[0]) < x(b[0]); });
+  std::sort(edges.begin(), edges.end(),
+            [&](const auto& a, const auto& b) { return x(a[0]) < x(b[0]); });
   Eigen::VectorXd turn = Eigen::VectorXd::Zero(mesh.vertex_count());
   Eigen::VectorXd length = turn;
   Eigen::VectorXd count = turn;
@@ -68,7 +71,8 @@ Eigen::VectorXd curvatures(const TriangleMesh& mesh, SigmaEdges edges, double th
     turn(v) = count(v) == 2 ? turn(v) / length(v) : 0;
     if (1 + thickness * turn(v) <= 0)
       throw Error(
-          fmt::format("extruded layer: the layer, {:g} thick, meets itself at {}, where Sigma is a hollow of radius "
+          fmt::format("extruded layer: the layer, {:g} thick, meets itself at {}, where Sigma is a "
+                      "hollow of radius "
                       "{:.3g}; accepted: a thickness below that",
                       thickness, mesh.location_text(v), -1 / turn(v)));
   }
@@ -77,7 +81,8 @@ Eigen::VectorXd curvatures(const TriangleMesh& mesh, SigmaEdges edges, double th
 
 void check_body(const TriangleMesh& body, double epsilon, bool along_normals) {
   if (!(epsilon >= 0 && epsilon <= 1))
-    throw Error(fmt::format("extruded layer: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
+    throw Error(fmt::format(
+        "extruded layer: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
   if (std::find(body.region.begin(), body.region.end(), Region::layer) != body.region.end())
     throw Error("extruded layer: the mesh has a layer; accepted: a body alone");
   const double off = on_line * body_size(body);
@@ -90,7 +95,8 @@ void check_body(const TriangleMesh& body, double epsilon, bool along_normals) {
 /// As many rows as make square cells in a layer of thickness epsilon below edges of length h.
 int row_count(const TriangleMesh& body, const SigmaEdges& edges, double epsilon) {
   double length = 0;
-  for (const auto& [left, right] : edges) length += (body.vertices.row(right) - body.vertices.row(left)).norm();
+  for (const auto& [left, right] : edges)
+    length += (body.vertices.row(right) - body.vertices.row(left)).norm();
   const double cells = epsilon * static_cast<double>(edges.size()) / length;  // epsilon / h
   return std::max(1, static_cast<int>(std::ceil(cells - 1e-9)));
 }
@@ -141,7 +147,8 @@ class Extrusion {
     const Eigen::RowVector2d along = body_.vertices.row(right) - body_.vertices.row(left);
     const double slope = along(1) / along(0);
     // the mean of the curvatures at its ends, of those that have one
-    const int inner_ends = static_cast<int>(degree_[left] == 2) + static_cast<int>(degree_[right] == 2);
+    const int inner_ends =
+        static_cast<int>(degree_[left] == 2) + static_cast<int>(degree_[right] == 2);
     const double mean = (curvature(left) + curvature(right)) / std::max(inner_ends, 1);
     for (const int v : {left, right})
       if (is_end(v) && side_[v].kind == EdgeTag::Kind::dirichlet)
@@ -156,8 +163,8 @@ class Extrusion {
     const auto vertex_count = static_cast<Eigen::Index>(vertices_.size());
     const auto triangle_count = static_cast<Eigen::Index>(triangles_.size());
     return make_triangle_mesh(Eigen::Map<const Points>(vertices_[0].data(), vertex_count, 2),
-                              Eigen::Map<const Triples>(triangles_[0].data(), triangle_count, 3), region, tagged_,
-                              "extruded layer");
+                              Eigen::Map<const Triples>(triangles_[0].data(), triangle_count, 3),
+                              region, tagged_, "extruded layer");
   }
 
  private:
@@ -199,7 +206,8 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_norma
   extrusion.add_vertices(edges, along_normals);
   std::vector<CurvedColumn> columns(along_normals ? body.triangle_count() : 0);  // per triangle
   for (const auto& [left, right] : edges) {
-    if (along_normals) columns.insert(columns.end(), 2 * rows, extrusion.curved_column(left, right, curvature));
+    if (along_normals)
+      columns.insert(columns.end(), 2 * rows, extrusion.curved_column(left, right, curvature));
     extrusion.add_column(left, right);
   }
   TriangleMesh mesh = extrusion.mesh();
@@ -223,7 +231,9 @@ Points drawn_along_normals(const TriangleMesh& mesh) {
     }
   }
   for (int v = 0; v < mesh.vertex_count(); ++v)
-    if (depth(v) > 0) points.row(v) += depth(v) * (Eigen::RowVector2d(0, 1) + thickness * normal.row(v).normalized());
+    if (depth(v) > 0)
+      points.row(v) +=
+          depth(v) * (Eigen::RowVector2d(0, 1) + thickness * normal.row(v).normalized());
   return points;
 }
 

@@ -11,7 +11,8 @@
 
 namespace antilock {
 
-MemoryFile::MemoryFile(const std::string& text) : descriptor_(::memfd_create("antilock", MFD_CLOEXEC)) {
+MemoryFile::MemoryFile(const std::string& text)
+    : descriptor_(::memfd_create("antilock", MFD_CLOEXEC)) {
   std::size_t written = 0;
   while (descriptor_ >= 0 && written < text.size()) {
     const ssize_t more = ::write(descriptor_, text.data() + written, text.size() - written);

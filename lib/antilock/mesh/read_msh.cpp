@@ -1,5 +1,6 @@
-// A reader of its own: gmsh's reader takes truncated sections, unknown nodes and wrong counts without a word. The file
-// is first read as it stands, then its tags are resolved, so that the order of the sections is free.
+// A reader of its own: gmsh's reader takes truncated sections, unknown nodes and wrong counts
+// without a word. The file is first read as it stands, then its tags are resolved, so that the
+// order of the sections is free.
 #include "antilock/mesh/read_msh.hpp"
 
 #include <fmt/format.h>
@@ -25,8 +26,8 @@ namespace {
 
 std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", printable(text, 40)); }
 
-/// A MSH file as lines of fields, one record a line as gmsh writes them; blank lines are skipped. It knows where it is,
-/// so that every refusal names the file and the line. Throws Error alone.
+/// A MSH file as lines of fields, one record a line as gmsh writes them; blank lines are skipped.
+/// It knows where it is, so that every refusal names the file and the line. Throws Error alone.
 class MshLines {
  public:
   /// Takes the whole stream.
@@ -56,8 +57,8 @@ class MshLines {
     }
     return false;
   }
-  /// Moves to the next record of `section`; refuses the end of the file, a line that starts with $ (fewer records than
-  /// declared), and, unless it is 0, another number of fields; `what` says what the fields are.
+  /// Moves to the next record of `section`; refuses the end of the file, a line that starts with
+  /// $ (fewer records than declared), and, unless it is 0, another number of fields; `what` says what the fields are.
   void next_record(std::string_view section, std::size_t count = 0, std::string_view what = "") {
     if (!next()) refuse_file<MeshError>("truncated: it ends within ${}", section);
     if (fields[0].front() == '$')
@@ -69,7 +70,8 @@ class MshLines {
   void end_section(std::string_view section) {
     if (!next()) refuse_file<MeshError>("truncated: it ends within ${}", section);
     if (fields.size() != 1 || fields[0] != fmt::format("$End{}", section))
-      refuse("{} where the entries that ${} declares are over; accepted: $End{}", in_quotes(line), section, section);
+      refuse("{} where the entries that ${} declares are over; accepted: $End{}", in_quotes(line),
+             section, section);
   }
   /// Passes over a section that the mesh does not need.
   void skip_section(std::string_view section) {
@@ -81,7 +83,8 @@ class MshLines {
 
   std::int64_t integer(std::size_t field) const {
     std::int64_t value = 0;
-    if (!read_number(fields[field], value)) refuse<MeshError>("{} is no integer", in_quotes(fields[field]));
+    if (!read_number(fields[field], value))
+      refuse<MeshError>("{} is no integer", in_quotes(fields[field]));
     return value;
   }
   std::int64_t count(std::size_t field) const {
@@ -92,22 +95,26 @@ class MshLines {
   double coordinate(std::size_t field) const {
     double value = 0;
     if (!read_number(fields[field], value) || !std::isfinite(value))
-      refuse("{} is no coordinate; accepted: a finite number, as -2.5e-01", in_quotes(fields[field]));
+      refuse("{} is no coordinate; accepted: a finite number, as -2.5e-01",
+             in_quotes(fields[field]));
     return value;
   }
 
-  /// Throws Error, or MeshError where `why` does not say what is accepted, about this line, another one or the file;
-  /// `why` is a format of the values.
+  /// Throws Error, or MeshError where `why` does not say what is accepted, about this line, another
+  /// one or the file; `why` is a format of the values.
   template <class Thrown = Error, class... Values>
-  [[noreturn]] void refuse(fmt::format_string<const Values&...> why, const Values&... values) const {
+  [[noreturn]] void refuse(fmt::format_string<const Values&...> why,
+                           const Values&... values) const {
     refuse_at<Thrown>(number, why, values...);
   }
   template <class Thrown = Error, class... Values>
-  [[noreturn]] void refuse_at(int at, fmt::format_string<const Values&...> why, const Values&... values) const {
+  [[noreturn]] void refuse_at(int at, fmt::format_string<const Values&...> why,
+                              const Values&... values) const {
     throw Thrown(fmt::format("{}: line {}: {}", name, at, fmt::format(why, values...)));
   }
   template <class Thrown = Error, class... Values>
-  [[noreturn]] void refuse_file(fmt::format_string<const Values&...> why, const Values&... values) const {
+  [[noreturn]] void refuse_file(fmt::format_string<const Values&...> why,
+                                const Values&... values) const {
     throw Thrown(fmt::format("{}: {}", name, fmt::format(why, values...)));
   }
 
@@ -132,8 +139,10 @@ struct FileNode {
 /// A point, line or triangle: 1, 2 or 3 nodes.
 struct FileElement {
   std::int64_t tag;
-  std::int64_t group;    ///< MSH 2.2: the physical group; 4.1: the entity, whose group $Entities tells
-  std::int64_t surface;  ///< the point, curve or surface that it is on; MSH 2.2: the group, where that is not told
+  std::int64_t
+      group;  ///< MSH 2.2: the physical group; 4.1: the entity, whose group $Entities tells
+  std::int64_t surface;  ///< the point, curve or surface that it is on; MSH 2.2: the group, where
+                         ///< that is not told
   int size;
   std::array<std::int64_t, 3> nodes;
   int line;
@@ -149,8 +158,9 @@ using GroupNames = std::set<std::pair<int, std::string>>;
 /// A MSH file as it stands, its tags not yet resolved.
 struct MshFile {
   bool version_4 = false;
-  std::map<Place, std::string> names;      ///< of the physical groups of curves and surfaces
-  std::map<Place, std::int64_t> entities;  ///< 4.1: the physical group of a curve or surface, 0 for none
+  std::map<Place, std::string> names;  ///< of the physical groups of curves and surfaces
+  std::map<Place, std::int64_t>
+      entities;  ///< 4.1: the physical group of a curve or surface, 0 for none
   std::vector<FileNode> nodes;
   std::vector<FileElement> elements;
 };
@@ -173,8 +183,10 @@ int element_size(const MshLines& lines, std::int64_t type) {
 void read_format(MshLines& lines, MshFile& file) {
   lines.next_record("MeshFormat", 3, "version, 0 for ASCII, size of a number");
   const std::string_view version = lines.fields[0];
-  if (version != "2.2" && version != "4.1") lines.refuse("MSH version {}; accepted: 2.2 and 4.1", in_quotes(version));
-  if (lines.fields[1] != "0") lines.refuse("a binary file; accepted: ASCII (gmsh option Mesh.Binary = 0)");
+  if (version != "2.2" && version != "4.1")
+    lines.refuse("MSH version {}; accepted: 2.2 and 4.1", in_quotes(version));
+  if (lines.fields[1] != "0")
+    lines.refuse("a binary file; accepted: ASCII (gmsh option Mesh.Binary = 0)");
   file.version_4 = version == "4.1";
 }
 
@@ -196,14 +208,18 @@ void read_names(MshLines& lines, MshFile& file, GroupNames known) {
       std::string accepted;  // the scene's own names stand here, too: a misspelt one is seen
       for (const auto& [of, each] : known)
         if (of == dimension) accepted += each + ", ";
-      lines.refuse("unknown {} group {}; accepted: {}and others that a scene names in [[edge]] or in [body] stiffness",
-                   dimension_names[dimension], in_quotes(name), accepted);
+      lines.refuse(
+          "unknown {} group {}; accepted: {}and others that a scene names in [[edge]] or in [body] "
+          "stiffness",
+          dimension_names[dimension], in_quotes(name), accepted);
     }
     for (const auto& [place, other] : file.names)
       if (other == name && place.first == dimension)
-        lines.refuse<MeshError>("the {} group {} is named twice", dimension_names[dimension], in_quotes(name));
+        lines.refuse<MeshError>("the {} group {} is named twice", dimension_names[dimension],
+                                in_quotes(name));
     if (!file.names.emplace(Place{dimension, lines.integer(1)}, name).second)
-      lines.refuse<MeshError>("{} group {} has two names", dimension_names[dimension], lines.integer(1));
+      lines.refuse<MeshError>("{} group {} has two names", dimension_names[dimension],
+                              lines.integer(1));
   }
 }
 
@@ -215,7 +231,8 @@ std::int64_t read_group(const MshLines& lines, std::size_t field) {
   return group;
 }
 
-/// Records: tag, a point (0-D) or a bounding box, number of physical groups, the groups, what bounds it.
+/// Records: tag, a point (0-D) or a bounding box, number of physical groups, the groups, what
+/// bounds it.
 void read_entities(MshLines& lines, MshFile& file) {
   lines.next_record("Entities", 4, "numbers of points, curves, surfaces, volumes");
   const std::array counts = {lines.count(0), lines.count(1), lines.count(2), lines.count(3)};
@@ -230,7 +247,8 @@ void read_entities(MshLines& lines, MshFile& file) {
         lines.refuse<MeshError>("{} physical groups declared, but the line ends", groups);
       if (dimension == 0) continue;
       if (groups > 1)
-        lines.refuse("{} {} is in {} physical groups; accepted: one", dimension_names[dimension], tag, groups);
+        lines.refuse("{} {} is in {} physical groups; accepted: one", dimension_names[dimension],
+                     tag, groups);
       const std::int64_t group = groups == 0 ? 0 : read_group(lines, first_group);
       if (!file.entities.emplace(Place{dimension, tag}, group).second)
         lines.refuse<MeshError>("{} {} is listed twice", dimension_names[dimension], tag);
@@ -240,11 +258,13 @@ void read_entities(MshLines& lines, MshFile& file) {
 /// A node, its coordinates from field `first` on.
 void read_node(const MshLines& lines, MshFile& file, std::int64_t tag, std::size_t first) {
   file.nodes.push_back(
-      {tag, {lines.coordinate(first), lines.coordinate(first + 1), lines.coordinate(first + 2)}, lines.number});
+      {tag,
+       {lines.coordinate(first), lines.coordinate(first + 1), lines.coordinate(first + 2)},
+       lines.number});
 }
 
-/// Records: tag x y z; in $ParametricNodes (Mesh.SaveParametric) also the dimension and the tag of the entity that the
-/// node is on, and one parameter on a curve, two on a surface.
+/// Records: tag x y z; in
+/// $ParametricNodes (Mesh.SaveParametric) also the dimension and the tag of the entity that the node is on, and one parameter on a curve, two on a surface.
 void read_nodes_2(MshLines& lines, MshFile& file, const std::string& section) {
   lines.next_record(section, 1, "their number");
   for (std::int64_t left = lines.count(0); left > 0; --left) {
@@ -253,8 +273,8 @@ void read_nodes_2(MshLines& lines, MshFile& file, const std::string& section) {
     } else {
       lines.next_record(section);
       if (lines.fields.size() < 6 || lines.fields.size() > 8)
-        lines.refuse("{} fields in ${}; accepted: 6 to 8 (tag x y z dimension entity parameters)", lines.fields.size(),
-                     section);
+        lines.refuse("{} fields in ${}; accepted: 6 to 8 (tag x y z dimension entity parameters)",
+                     lines.fields.size(), section);
     }
     read_node(lines, file, lines.integer(0), 1);
   }
@@ -279,7 +299,8 @@ void read_nodes_4(MshLines& lines, MshFile& file) {
     }
   }
   if (static_cast<std::int64_t>(file.nodes.size()) != total)
-    lines.refuse<MeshError>("$Nodes declares {} nodes, its blocks hold {}", total, file.nodes.size());
+    lines.refuse<MeshError>("$Nodes declares {} nodes, its blocks hold {}", total,
+                            file.nodes.size());
 }
 
 FileElement read_element(const MshLines& lines, int size, std::int64_t group, std::int64_t surface,
@@ -289,16 +310,19 @@ FileElement read_element(const MshLines& lines, int size, std::int64_t group, st
   return element;
 }
 
-/// Records: number type tag-count tags nodes; the first tag is the physical group, the second the entity.
+/// Records: number type tag-count tags nodes; the first tag is the physical group, the second the
+/// entity.
 void read_elements_2(MshLines& lines, MshFile& file) {
   lines.next_record("Elements", 1, "their number");
   for (std::int64_t left = lines.count(0); left > 0; --left) {
     lines.next_record("Elements");
-    if (lines.fields.size() < 4) lines.refuse("too few fields; accepted: number type tag-count tags nodes");
+    if (lines.fields.size() < 4)
+      lines.refuse("too few fields; accepted: number type tag-count tags nodes");
     const int size = element_size(lines, lines.integer(1));
     const std::int64_t tags = lines.count(2);
     if (tags != static_cast<std::int64_t>(lines.fields.size()) - 3 - size)
-      lines.refuse("{} fields; accepted: 3, the {} tags declared and {} nodes", lines.fields.size(), tags, size);
+      lines.refuse("{} fields; accepted: 3, the {} tags declared and {} nodes", lines.fields.size(),
+                   tags, size);
     const std::int64_t group = tags == 0 ? 0 : read_group(lines, 3);
     const std::int64_t surface = tags < 2 ? group : lines.integer(4);
     file.elements.push_back(read_element(lines, size, group, surface, lines.fields.size() - size));
@@ -313,8 +337,8 @@ void read_elements_4(MshLines& lines, MshFile& file) {
     lines.next_record("Elements", 4, "dimension, entity, element type, elements");
     const int size = element_size(lines, lines.integer(2));
     if (read_dimension(lines, 0) != size - 1)
-      lines.refuse<MeshError>("element type {} in a block of dimension {}", in_quotes(lines.fields[2]),
-                              in_quotes(lines.fields[0]));
+      lines.refuse<MeshError>("element type {} in a block of dimension {}",
+                              in_quotes(lines.fields[2]), in_quotes(lines.fields[0]));
     const std::int64_t entity = lines.integer(1);
     for (std::int64_t left = lines.count(3); left > 0; --left) {
       lines.next_record("Elements", 1 + static_cast<std::size_t>(size), "number and nodes");
@@ -322,23 +346,28 @@ void read_elements_4(MshLines& lines, MshFile& file) {
     }
   }
   if (static_cast<std::int64_t>(file.elements.size()) != total)
-    lines.refuse<MeshError>("$Elements declares {} elements, its blocks hold {}", total, file.elements.size());
+    lines.refuse<MeshError>("$Elements declares {} elements, its blocks hold {}", total,
+                            file.elements.size());
 }
 
 /// Reads and checks every section that a mesh needs, 2.2 or 4.1.
-/// `more`: the names that it may have beside body, layer, sigma, clamped and contact, with their dimensions.
+/// `more`: the names that it may have beside body, layer, sigma, clamped and contact, with their
+/// dimensions.
 MshFile read_sections(MshLines& lines, const GroupNames& more) {
   bool any = lines.next();
   for (; any && lines.fields[0] == "$Comments"; any = lines.next()) lines.skip_section("Comments");
   if (!any || lines.fields[0] != "$MeshFormat")
-    lines.refuse_file("is no MSH file: it does not start with $MeshFormat; accepted: MSH 2.2 or 4.1, ASCII");
+    lines.refuse_file(
+        "is no MSH file: it does not start with $MeshFormat; accepted: MSH 2.2 or 4.1, ASCII");
   MshFile file;
   std::set<std::string, std::less<>> seen;
   const auto first_time = [&](const std::string& section) {
-    if (!seen.insert(section).second) lines.refuse<MeshError>("a second {}", in_quotes('$' + section));
+    if (!seen.insert(section).second)
+      lines.refuse<MeshError>("a second {}", in_quotes('$' + section));
   };
   do {
-    if (lines.fields.size() != 1 || lines.fields[0].front() != '$' || lines.fields[0].starts_with("$End"))
+    if (lines.fields.size() != 1 || lines.fields[0].front() != '$' ||
+        lines.fields[0].starts_with("$End"))
       lines.refuse<MeshError>("{} outside every section", in_quotes(lines.line));
     const std::string section(lines.fields[0].substr(1));
     if (section == "MeshFormat") {
@@ -365,39 +394,47 @@ MshFile read_sections(MshLines& lines, const GroupNames& more) {
     lines.end_section(section);
   } while (lines.next());
   for (const char* section : {"PhysicalNames", "Nodes", "Elements"})
-    if (!seen.contains(section)) lines.refuse_file<MeshError>("has no section ${}, which is needed", section);
+    if (!seen.contains(section))
+      lines.refuse_file<MeshError>("has no section ${}, which is needed", section);
   if (file.version_4 && !seen.contains("Entities"))
-    lines.refuse_file<MeshError>("has no section $Entities, which in MSH 4.1 tells the physical groups");
+    lines.refuse_file<MeshError>(
+        "has no section $Entities, which in MSH 4.1 tells the physical groups");
   return file;
 }
 
-/// The physical group that a line or a triangle is in, 0 for none; a negative number, which turns the entity round, is
-/// that of the same group.
+/// The physical group that a line or a triangle is in, 0 for none; a negative number, which turns
+/// the entity round, is that of the same group.
 std::int64_t group_number(const MshLines& lines, const MshFile& file, const FileElement& element) {
   if (!file.version_4) return std::abs(element.group);
   const auto entity = file.entities.find({element.dimension(), element.group});
   if (entity == file.entities.end())
-    lines.refuse_at<MeshError>(element.line, "element {} is on {} {}, which $Entities does not list", element.tag,
+    lines.refuse_at<MeshError>(element.line,
+                               "element {} is on {} {}, which $Entities does not list", element.tag,
                                dimension_names[element.dimension()], element.group);
   return std::abs(entity->second);
 }
 
 /// Its name.
-const std::string& group_name(const MshLines& lines, const MshFile& file, const FileElement& element) {
+const std::string& group_name(const MshLines& lines, const MshFile& file,
+                              const FileElement& element) {
   const char* dimension = dimension_names[element.dimension()];
   const std::int64_t group = group_number(lines, file, element);
   if (group == 0)
-    lines.refuse_at(element.line, "element {} is in no physical group; accepted: body, layer, sigma, clamped, contact",
-                    element.tag);
+    lines.refuse_at(
+        element.line,
+        "element {} is in no physical group; accepted: body, layer, sigma, clamped, contact",
+        element.tag);
   const auto name = file.names.find({element.dimension(), group});
   if (name == file.names.end())
-    lines.refuse_at<MeshError>(element.line, "element {} is in {} group {}, which $PhysicalNames does not name",
+    lines.refuse_at<MeshError>(element.line,
+                               "element {} is in {} group {}, which $PhysicalNames does not name",
                                element.tag, dimension, group);
   return name->second;
 }
 
 /// Node tags, which may have gaps, to places in the file from 0 on.
-std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines, const std::vector<FileNode>& nodes) {
+std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines,
+                                                   const std::vector<FileNode>& nodes) {
   std::unordered_map<std::int64_t, int> place;
   place.reserve(nodes.size());
   for (const auto& [tag, at, line] : nodes) {
@@ -408,11 +445,12 @@ std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines, const 
   return place;
 }
 
-/// The vertices of the mesh: the nodes that a line or a triangle has, in the order of the file. A node of none of them
-/// (the centre of a circle, a physical point) is left out.
+/// The vertices of the mesh: the nodes that a line or a triangle has, in the order of the file. A
+/// node of none of them (the centre of a circle, a physical point) is left out.
 class Vertices {
  public:
-  explicit Vertices(const std::vector<FileNode>& nodes) : nodes_(nodes), number_(nodes.size(), unused) {}
+  explicit Vertices(const std::vector<FileNode>& nodes)
+      : nodes_(nodes), number_(nodes.size(), unused) {}
   void use(int place) { number_[place] = 0; }
 
   /// Numbers those in use. Throws Error for one that is off the plane z = 0.
@@ -431,8 +469,8 @@ class Vertices {
     constexpr double flat = 1e-12;  // of the mesh's size: what a generator's round-off may leave
     for (const FileNode* node : used)
       if (std::abs(node->at[2]) > flat * size)
-        lines.refuse_at(node->line, "node {} has z = {:.6g}; accepted: a mesh in the plane z = 0", node->tag,
-                        node->at[2]);
+        lines.refuse_at(node->line, "node {} has z = {:.6g}; accepted: a mesh in the plane z = 0",
+                        node->tag, node->at[2]);
   }
   int at(int place) const { return number_[place]; }
   Points points;
@@ -450,34 +488,40 @@ std::array<int, 3> places_of_nodes(const MshLines& lines, const FileElement& ele
   for (int i = 0; i < element.size; ++i) {
     const auto node = place_of.find(element.nodes[i]);
     if (node == place_of.end())
-      lines.refuse_at<MeshError>(element.line, "element {} has node {}, which $Nodes does not list", element.tag,
-                                 element.nodes[i]);
+      lines.refuse_at<MeshError>(element.line, "element {} has node {}, which $Nodes does not list",
+                                 element.tag, element.nodes[i]);
     places[i] = node->second;
   }
   return places;
 }
 
 /// Throws unless every group that is needed, and every one that the file names, has elements.
-void check_groups(const MshLines& lines, const MshFile& file, const ExtraGroups& more, const GroupNames& found) {
+void check_groups(const MshLines& lines, const MshFile& file, const ExtraGroups& more,
+                  const GroupNames& found) {
   for (const auto& [dimension, name] : GroupNames{{2, "body"}, {1, "clamped"}, {1, "contact"}}) {
     if (found.contains({dimension, name})) continue;
-    const bool replaced = (name == "body" && !more.bodies.empty()) || (name == "clamped" && !more.curves.empty());
+    const bool replaced =
+        (name == "body" && !more.bodies.empty()) || (name == "clamped" && !more.curves.empty());
     if (!replaced)
-      lines.refuse_file<MeshError>("has nothing in the physical group {}; needed: body, clamped, contact",
-                                   in_quotes(name));
+      lines.refuse_file<MeshError>(
+          "has nothing in the physical group {}; needed: body, clamped, contact", in_quotes(name));
   }
   for (const auto& [name, tag] : more.curves)
-    if (!found.contains({1, name})) lines.refuse_file<MeshError>("has no curve in the group {}", in_quotes(name));
+    if (!found.contains({1, name}))
+      lines.refuse_file<MeshError>("has no curve in the group {}", in_quotes(name));
   for (const std::string& name : more.bodies)
-    if (!found.contains({2, name})) lines.refuse_file<MeshError>("has no surface in the group {}", in_quotes(name));
+    if (!found.contains({2, name}))
+      lines.refuse_file<MeshError>("has no surface in the group {}", in_quotes(name));
   for (const auto& [place, name] : file.names)
     if (!found.contains({place.first, name}))
       lines.refuse_file<MeshError>("names the physical group {}, but it is empty", in_quotes(name));
 }
 
-TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGroups& more, std::vector<int>* part) {
+TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGroups& more,
+                     std::vector<int>* part) {
   std::map<std::string, EdgeTag> edge_tags = more.curves;
-  edge_tags.insert({{"sigma", EdgeTag::sigma}, {"clamped", EdgeTag::clamped}, {"contact", EdgeTag::contact}});
+  edge_tags.insert(
+      {{"sigma", EdgeTag::sigma}, {"clamped", EdgeTag::clamped}, {"contact", EdgeTag::contact}});
   const auto place_of = number_nodes(lines, file.nodes);
   Vertices used(file.nodes);
   std::vector<std::array<int, 3>> corners;
@@ -485,7 +529,8 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGrou
   std::vector<int> surface;
   std::map<std::pair<std::int64_t, std::int64_t>, int> surfaces;  // of a group and its entity
   std::vector<TaggedEdge> edges;
-  std::map<std::array<int, 3>, const FileElement*> triangles_seen;  // by their nodes in ascending order
+  std::map<std::array<int, 3>, const FileElement*>
+      triangles_seen;  // by their nodes in ascending order
   GroupNames found;
   std::unordered_set<std::int64_t> tags;
   if (part != nullptr) part->clear();
@@ -494,7 +539,8 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGrou
       lines.refuse_at<MeshError>(element.line, "element number {} is used twice", element.tag);
     const std::array<int, 3> vertices = places_of_nodes(lines, element, place_of);
     if (element.dimension() == 0) continue;
-    // Mesh.SaveAll: of the lines within the body nothing is said, and a side in no group is refused with its place
+    // Mesh.SaveAll: of the lines within the body nothing is said, and a side in no group is refused
+    // with its place
     if (element.dimension() == 1 && group_number(lines, file, element) == 0) continue;
     const std::string& name = group_name(lines, file, element);
     found.emplace(element.dimension(), name);
@@ -506,7 +552,8 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGrou
       std::sort(nodes.begin(), nodes.end());
       if (const auto [first, alone] = triangles_seen.emplace(nodes, &element); !alone)
         lines.refuse_at(element.line,
-                        "element {}, in the group {}, is the same triangle as element {}, in the group {}; accepted: "
+                        "element {}, in the group {}, is the same triangle as element {}, in the "
+                        "group {}; accepted: "
                         "each triangle once, in one group",
                         element.tag, in_quotes(name), first->second->tag,
                         in_quotes(group_name(lines, file, *first->second)));
@@ -528,14 +575,16 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGrou
     edge.from = used.at(edge.from);
     edge.to = used.at(edge.to);
   }
-  Triples triangles = Eigen::Map<Triples>(corners[0].data(), static_cast<Eigen::Index>(corners.size()), 3);
-  return make_triangle_mesh(std::move(used.points), std::move(triangles), std::move(region), edges, lines.name,
-                            surface);
+  Triples triangles =
+      Eigen::Map<Triples>(corners[0].data(), static_cast<Eigen::Index>(corners.size()), 3);
+  return make_triangle_mesh(std::move(used.points), std::move(triangles), std::move(region), edges,
+                            lines.name, surface);
 }
 
 }  // namespace
 
-TriangleMesh read_msh(std::istream& in, const std::string& name, const ExtraGroups& more, std::vector<int>* part) {
+TriangleMesh read_msh(std::istream& in, const std::string& name, const ExtraGroups& more,
+                      std::vector<int>* part) {
   MshLines lines(in, name);
   GroupNames known;
   for (const auto& [curve, tag] : more.curves) known.emplace(1, curve);

@@ -20,7 +20,8 @@ struct ExtraGroups {
 /// -1. Throws Error or MeshError, whose message begins with `name`, for a file that is missing,
 /// binary, truncated or of another version, for other elements than points, lines and triangles,
 /// for unknown or missing groups, and where make_triangle_mesh throws.
-TriangleMesh read_msh(const std::string& path, const ExtraGroups& more = {}, std::vector<int>* part = nullptr);
+TriangleMesh read_msh(const std::string& path, const ExtraGroups& more = {},
+                      std::vector<int>* part = nullptr);
 TriangleMesh read_msh(std::istream& in, const std::string& name, const ExtraGroups& more = {},
                       std::vector<int>* part = nullptr);
 

@@ -1,6 +1,6 @@
-// Figure 3: squares cut by a diagonal. Lines at equal distances, so written out: gmsh's transfinite meshes give the
-// same triangles but take seconds where this takes milliseconds. And the same mesh with its vertices moved at random,
-// as little as one likes, on the way to Figure 6.
+// Figure 3: squares cut by a diagonal. Lines at equal distances, so written out: gmsh's transfinite
+// meshes give the same triangles but take seconds where this takes milliseconds. And the same mesh
+// with its vertices moved at random, as little as one likes, on the way to Figure 6.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,8 @@ void check_mesh_request(int cells, int most, const Domain& domain) {
   if (cells < 1 || cells > most)
     throw Error(fmt::format("mesh: cells = {} is out of range; accepted 1 to {}", cells, most));
   if (!(domain.layer_depth >= 0 && domain.layer_depth <= 1))
-    throw Error(fmt::format("mesh: layer depth {} is out of range; accepted 0 to 1", domain.layer_depth));
+    throw Error(
+        fmt::format("mesh: layer depth {} is out of range; accepted 0 to 1", domain.layer_depth));
 }
 
 TriangleMesh structured_mesh(int cells, const Domain& domain, Diagonal diagonal) {

@@ -31,17 +31,19 @@ Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)
     EdgeTag tag = mesh.edge_tag[e];
     if (owners[e] == 1 && tag == EdgeTag::interior) tag = EdgeTag::clamped;
     if (owners[e] == 1 && tag == EdgeTag::sigma) tag = EdgeTag::contact;
-    if (tag != EdgeTag::interior) tagged.push_back({number[mesh.edges(e, 0)], number[mesh.edges(e, 1)], tag});
+    if (tag != EdgeTag::interior)
+      tagged.push_back({number[mesh.edges(e, 0)], number[mesh.edges(e, 1)], tag});
   }
   Points points = mesh.vertices(part.old_vertex, Eigen::indexing::all);
-  part.mesh =
-      make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), tagged, "a part of a mesh");
+  part.mesh = make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), tagged,
+                                 "a part of a mesh");
   part.mesh.geometry = mesh.geometry;
   return part;
 }
 
 TriangleMesh body_submesh(const TriangleMesh& mesh) {
-  if (std::find(mesh.region.begin(), mesh.region.end(), Region::layer) == mesh.region.end()) return mesh;
+  if (std::find(mesh.region.begin(), mesh.region.end(), Region::layer) == mesh.region.end())
+    return mesh;
   return submesh(mesh, [&](int t) { return mesh.region[t] == Region::body; }).mesh;
 }
 

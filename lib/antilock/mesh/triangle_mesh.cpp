@@ -15,7 +15,8 @@ namespace antilock {
 namespace {
 
 template <class Thrown = Error, class... Values>
-[[noreturn]] void refuse(const std::string& where, fmt::format_string<const Values&...> why, const Values&... values) {
+[[noreturn]] void refuse(const std::string& where, fmt::format_string<const Values&...> why,
+                         const Values&... values) {
   throw Thrown(fmt::format("{}: {}", where, fmt::format(why, values...)));
 }
 
@@ -25,7 +26,8 @@ std::string triangle_at(const TriangleMesh& mesh, int t) {
                      mesh.location_text(v(t, 2)));
 }
 
-void check_indices(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
+void check_indices(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges,
+                   const std::string& where) {
   const int n = mesh.vertex_count();
   if (mesh.triangle_count() == 0) refuse(where, "no triangles; accepted: a mesh of the body");
   if (static_cast<int>(mesh.region.size()) != mesh.triangle_count())
@@ -35,7 +37,8 @@ void check_indices(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagg
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i)
       if (!valid(mesh.triangles(t, i)))
-        refuse(where, "triangle {} has vertex {}; accepted 0 to {}", t, mesh.triangles(t, i), n - 1);
+        refuse(where, "triangle {} has vertex {}; accepted 0 to {}", t, mesh.triangles(t, i),
+               n - 1);
   for (const TaggedEdge& e : tagged_edges)
     if (!valid(e.from) || !valid(e.to))
       refuse(where, "a tagged edge has vertices {} and {}; accepted 0 to {}", e.from, e.to, n - 1);
@@ -52,22 +55,25 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
   std::vector<int> order(mesh.vertex_count());
   std::iota(order.begin(), order.end(), 0);
   const auto& p = mesh.vertices;
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return p(a, 0) != p(b, 0) ? p(a, 0) < p(b, 0) : p(a, 1) < p(b, 1); });
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return p(a, 0) != p(b, 0) ? p(a, 0) < p(b, 0) : p(a, 1) < p(b, 1);
+  });
   for (std::size_t i = 1; i < order.size(); ++i)
     if (p.row(order[i]) == p.row(order[i - 1]))
       refuse(where, "two vertices share the place {}: a crack; accepted: one vertex a place",
              mesh.location_text(order[i]));
 }
 
-/// A surface that gmsh oriented downwards is turned round as a whole; a single inverted triangle is an error.
+/// A surface that gmsh oriented downwards is turned round as a whole; a single inverted triangle is
+/// an error.
 void orient(TriangleMesh& mesh, const std::vector<int>& surface, const std::string& where) {
   struct Turns {
     int members = 0;
     int clockwise = 0;
     int example = -1;  ///< a clockwise triangle
   };
-  std::vector<Turns> turns(surface.empty() ? 0 : *std::max_element(surface.begin(), surface.end()) + 1);
+  std::vector<Turns> turns(surface.empty() ? 0
+                                           : *std::max_element(surface.begin(), surface.end()) + 1);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     Turns& here = turns[surface[t]];
     ++here.members;
@@ -104,7 +110,8 @@ void check_triangles(const TriangleMesh& mesh, const std::string& where) {
 }
 
 /// Tags sit on the boundary and on Sigma: only those edges need to be found.
-void tag_edges(TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
+void tag_edges(TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges,
+               const std::string& where) {
   std::map<std::pair<int, int>, int> known;
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_triangles(e, 1) < 0 || mesh.edge_tag[e] == EdgeTag::sigma)
@@ -114,7 +121,8 @@ void tag_edges(TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, 
     const bool on_sigma = found != known.end() && mesh.edge_triangles(found->second, 1) >= 0;
     if (found == known.end() || on_sigma != (tagged.tag == EdgeTag::sigma))
       refuse(where,
-             "the tagged edge from {} to {} is dangling or misplaced; accepted: clamped and contact on the "
+             "the tagged edge from {} to {} is dangling or misplaced; accepted: clamped and "
+             "contact on the "
              "boundary, sigma between body and layer",
              mesh.location_text(tagged.from), mesh.location_text(tagged.to));
     EdgeTag& tag = mesh.edge_tag[found->second];
@@ -132,14 +140,16 @@ void check_overlap(const TriangleMesh& mesh, const std::string& where) {
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
       const char forward = mesh.triangles(t, (i + 1) % 3) == mesh.edges(e, 0) ? 1 : 2;
-      if (direction[e] == forward) refuse<MeshError>(where, "inverted or overlapping {}", triangle_at(mesh, t));
+      if (direction[e] == forward)
+        refuse<MeshError>(where, "inverted or overlapping {}", triangle_at(mesh, t));
       direction[e] = forward;
     }
 }
 
 /// Whether vertex v lies strictly inside edge e.
 bool hangs(const TriangleMesh& mesh, int v, int e) {
-  const Eigen::Vector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
+  const Eigen::Vector2d a = mesh.vertices.row(mesh.edges(e, 0)),
+                        b = mesh.vertices.row(mesh.edges(e, 1));
   const Eigen::Vector2d along = b - a, to = mesh.vertices.row(v).transpose() - a;
   const double t = to.dot(along) / along.squaredNorm();
   return t > 1e-9 && t < 1 - 1e-9 && (to - t * along).norm() < 1e-9 * along.norm();
@@ -148,31 +158,38 @@ bool hangs(const TriangleMesh& mesh, int v, int e) {
 void check_boundary(const TriangleMesh& mesh, const std::string& where) {
   std::vector<int> untagged;
   for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_triangles(e, 1) < 0 && mesh.edge_tag[e] == EdgeTag::interior) untagged.push_back(e);
+    if (mesh.edge_triangles(e, 1) < 0 && mesh.edge_tag[e] == EdgeTag::interior)
+      untagged.push_back(e);
   if (untagged.empty()) return;
   const int first = untagged.front();
   const auto refuse_hanging = [&](int v, int e) {
     if (hangs(mesh, v, e))
-      refuse<MeshError>(where, "the vertex at {} hangs on the edge from {} to {}", mesh.location_text(v),
-                        mesh.location_text(mesh.edges(e, 0)), mesh.location_text(mesh.edges(e, 1)));
+      refuse<MeshError>(where, "the vertex at {} hangs on the edge from {} to {}",
+                        mesh.location_text(v), mesh.location_text(mesh.edges(e, 0)),
+                        mesh.location_text(mesh.edges(e, 1)));
   };
-  // the likely reason: the first of them is the long side of a hanging vertex, or one of the short ones
+  // the likely reason: the first of them is the long side of a hanging vertex, or one of the short
+  // ones
   for (int v = 0; v < mesh.vertex_count(); ++v) refuse_hanging(v, first);
   for (const int e : untagged)
     for (int end = 0; end < 2; ++end) refuse_hanging(mesh.edges(first, end), e);
   refuse(where,
-         "the boundary edge from {} to {} is in no group; accepted: clamped, contact, or one that an [[edge]] names",
+         "the boundary edge from {} to {} is in no group; accepted: clamped, contact, or one that "
+         "an [[edge]] names",
          mesh.location_text(mesh.edges(first, 0)), mesh.location_text(mesh.edges(first, 1)));
 }
 
 /// A piece that no clamped edge holds could move freely: the problem would be singular.
 void check_held(const TriangleMesh& mesh, const std::string& where) {
-  const auto held = [&](int e) { return is_dirichlet(mesh.edge_tag[e]) || mesh.edge_tag[e].group >= 0; };
+  const auto held = [&](int e) {
+    return is_dirichlet(mesh.edge_tag[e]) || mesh.edge_tag[e].group >= 0;
+  };
   bool any = false;
   for (int e = 0; e < mesh.edge_count() && !any; ++e) any = held(e);
   if (!any) refuse<MeshError>(where, "no edge is in the group clamped, which is needed");
   if (const int t = find_floating_component(mesh, held); t >= 0)
-    refuse<MeshError>(where, "dangling {}: no clamped edge holds its piece of the mesh", triangle_at(mesh, t));
+    refuse<MeshError>(where, "dangling {}: no clamped edge holds its piece of the mesh",
+                      triangle_at(mesh, t));
 }
 
 }  // namespace
@@ -191,7 +208,8 @@ int find_floating_component(const TriangleMesh& mesh, const std::function<bool(i
     const int t = stack.back();
     stack.pop_back();
     for (int i = 0; i < 3; ++i)
-      for (int side = 0; side < 2; ++side) reach(mesh.edge_triangles(mesh.triangle_edges(t, i), side));
+      for (int side = 0; side < 2; ++side)
+        reach(mesh.edge_triangles(mesh.triangle_edges(t, i), side));
   }
   const auto loose = std::find(reached.begin(), reached.end(), 0);
   return loose != reached.end() ? static_cast<int>(loose - reached.begin()) : -1;
@@ -202,11 +220,13 @@ void number_edges(TriangleMesh& mesh, const std::string& where) {
   mesh.triangle_edges.resize(triangle_count, 3);
   mesh.edges.resize(3 * static_cast<Eigen::Index>(triangle_count), 2);
   mesh.edge_triangles.resize(3 * static_cast<Eigen::Index>(triangle_count), 2);
-  // a chain of edges per vertex, those whose smaller vertex it is: each holds a handful, so that the search is linear
+  // a chain of edges per vertex, those whose smaller vertex it is: each holds a handful, so that
+  // the search is linear
   std::vector<int> last(mesh.vertex_count(), -1), before;
   for (int t = 0; t < triangle_count; ++t)
     for (int i = 0; i < 3; ++i) {
-      const auto [from, to] = std::minmax(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3));
+      const auto [from, to] =
+          std::minmax(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3));
       int e = last[from];
       while (e >= 0 && mesh.edges(e, 1) != to) e = before[e];
       if (e < 0) {
@@ -216,8 +236,8 @@ void number_edges(TriangleMesh& mesh, const std::string& where) {
         mesh.edge_triangles.row(e) << t, -1;
       } else {
         if (mesh.edge_triangles(e, 1) != -1)
-          refuse(where, "three triangles share the edge from {} to {}; accepted: two at most", mesh.location_text(from),
-                 mesh.location_text(to));
+          refuse(where, "three triangles share the edge from {} to {}; accepted: two at most",
+                 mesh.location_text(from), mesh.location_text(to));
         mesh.edge_triangles(e, 1) = t;
       }
       mesh.triangle_edges(t, i) = e;
@@ -228,16 +248,20 @@ void number_edges(TriangleMesh& mesh, const std::string& where) {
   mesh.edge_tag.assign(before.size(), EdgeTag::interior);
   for (int e = 0; e < count; ++e) {
     const int other = mesh.edge_triangles(e, 1);
-    if (other >= 0 && mesh.region[mesh.edge_triangles(e, 0)] != mesh.region[other]) mesh.edge_tag[e] = EdgeTag::sigma;
+    if (other >= 0 && mesh.region[mesh.edge_triangles(e, 0)] != mesh.region[other])
+      mesh.edge_tag[e] = EdgeTag::sigma;
   }
 }
 
 double TriangleMesh::twice_area(int t) const {
-  const auto a = vertices.row(triangles(t, 0)), b = vertices.row(triangles(t, 1)), c = vertices.row(triangles(t, 2));
+  const auto a = vertices.row(triangles(t, 0)), b = vertices.row(triangles(t, 1)),
+             c = vertices.row(triangles(t, 2));
   return (b(0) - a(0)) * (c(1) - a(1)) - (c(0) - a(0)) * (b(1) - a(1));
 }
 
-double TriangleMesh::edge_length(int e) const { return (vertices.row(edges(e, 0)) - vertices.row(edges(e, 1))).norm(); }
+double TriangleMesh::edge_length(int e) const {
+  return (vertices.row(edges(e, 0)) - vertices.row(edges(e, 1))).norm();
+}
 
 std::string TriangleMesh::location_text(int vertex) const {
   return fmt::format("({:.6g}, {:.6g})", vertices(vertex, 0), vertices(vertex, 1));
@@ -267,16 +291,17 @@ double TriangleMesh::diameter() const {
 }
 
 TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<Region> region,
-                                const std::vector<TaggedEdge>& tagged_edges, const std::string& where,
-                                const std::vector<int>& surface) {
+                                const std::vector<TaggedEdge>& tagged_edges,
+                                const std::string& where, const std::vector<int>& surface) {
   TriangleMesh mesh;
   mesh.vertices = std::move(vertices);
   mesh.triangles = std::move(triangles);
   mesh.region = std::move(region);
   check_indices(mesh, tagged_edges, where);
-  if (!surface.empty() &&
-      (surface.size() != mesh.region.size() || *std::min_element(surface.begin(), surface.end()) < 0))
-    refuse(where, "{} numbers of surfaces; accepted: none, or one per triangle, from 0 on", surface.size());
+  if (!surface.empty() && (surface.size() != mesh.region.size() ||
+                           *std::min_element(surface.begin(), surface.end()) < 0))
+    refuse(where, "{} numbers of surfaces; accepted: none, or one per triangle, from 0 on",
+           surface.size());
   check_vertices(mesh, where);
   check_triangles(mesh, where);
   orient(mesh, surface.empty() ? surfaces_of(mesh.region) : surface, where);
@@ -301,7 +326,8 @@ TriangleMesh tag_by_position(Points vertices, Triples triangles) {
   const double lowest = y.minCoeff();
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_triangles(e, 1) < 0)
-      mesh.edge_tag[e] = (y(mesh.edges.row(e)).array() == lowest).all() ? EdgeTag::contact : EdgeTag::clamped;
+      mesh.edge_tag[e] =
+          (y(mesh.edges.row(e)).array() == lowest).all() ? EdgeTag::contact : EdgeTag::clamped;
   return mesh;
 }
 

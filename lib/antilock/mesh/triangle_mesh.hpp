@@ -124,8 +124,8 @@ double body_size(const TriangleMesh& mesh);
 /// (as at a hanging node), tagged edges that are no edge of the mesh, a mesh without a body, and a
 /// mesh without an edge that is clamped or in a named group.
 TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<Region> region,
-                                const std::vector<TaggedEdge>& tagged_edges, const std::string& where,
-                                const std::vector<int>& surface = {});
+                                const std::vector<TaggedEdge>& tagged_edges,
+                                const std::string& where, const std::vector<int>& surface = {});
 
 /// Returns a triangle of a component without an edge that is `held` (a floating subdomain in the
 /// words of FETI), or -1 if there is none. Components are connected by edges, not by vertices.

@@ -1,8 +1,10 @@
-// Figure 6: an arbitrary triangulation, compatible with the decomposition into body and layer; gmsh makes it.
+// Figure 6: an arbitrary triangulation, compatible with the decomposition into body and layer; gmsh
+// makes it.
 //
-// Where the environment variable ANTILOCK_MESHES names a folder, what gmsh made is kept there under a name that says
-// all that it depends on, and whoever asks for it again reads it, in this program or in another one. Meant for one run
-// of many programs: tests/run, whose 300 programs ask 1,100 times for 50 meshes, empties the folder before.
+// Where the environment variable ANTILOCK_MESHES names a folder, what gmsh made is kept there under
+// a name that says all that it depends on, and whoever asks for it again reads it, in this program
+// or in another one. Meant for one run of many programs: tests/run, whose 300 programs ask 1,100
+// times for 50 meshes, empties the folder before.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,10 +31,12 @@ using MeshArrays = std::pair<Points, Triples>;
 MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
   GmshSession gmsh;
   gmsh.set("Mesh.Algorithm", static_cast<int>(mesher));
-  const int a = gmsh.add_point(0, 0, h_layer), b = gmsh.add_point(1, 0, h_layer);  // the ends of Sigma
-  const int top_left = gmsh.add_point(0, 1, h), top_right = gmsh.add_point(1, 1, h), sigma = gmsh.add_line(a, b);
-  gmsh.add_surface(
-      {sigma, gmsh.add_line(b, top_right), gmsh.add_line(top_right, top_left), gmsh.add_line(top_left, a)});
+  const int a = gmsh.add_point(0, 0, h_layer),
+            b = gmsh.add_point(1, 0, h_layer);  // the ends of Sigma
+  const int top_left = gmsh.add_point(0, 1, h), top_right = gmsh.add_point(1, 1, h),
+            sigma = gmsh.add_line(a, b);
+  gmsh.add_surface({sigma, gmsh.add_line(b, top_right), gmsh.add_line(top_right, top_left),
+                    gmsh.add_line(top_left, a)});
   if (depth > 0) {
     const int d = gmsh.add_point(0, -depth, h_layer), e = gmsh.add_point(1, -depth, h_layer);
     gmsh.add_surface({gmsh.add_line(d, e), gmsh.add_line(e, b), -sigma, gmsh.add_line(a, d)});
@@ -45,12 +49,14 @@ MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
       if (std::abs(value - line) < 1e-9) return line;
     return value;
   };
-  for (auto point : made.first.rowwise()) point << snap(point(0), {0, 1}), snap(point(1), {-depth, 0, 1});
+  for (auto point : made.first.rowwise())
+    point << snap(point(0), {0, 1}), snap(point(1), {-depth, 0, 1});
   return made;
 }
 
-/// What `make` makes, or what was kept under that name: the numbers of vertices and of triangles, then both arrays as
-/// they lie in memory. A file that does not hold what its numbers promise is made anew.
+/// What `make` makes, or what was kept under that name: the numbers of vertices and of triangles,
+/// then both arrays as they lie in memory. A file that does not hold what its numbers promise is
+/// made anew.
 template <class Make>
 MeshArrays kept_mesh(const std::string& name, Make&& make) {
   const char* folder = std::getenv("ANTILOCK_MESHES");
@@ -65,15 +71,18 @@ MeshArrays kept_mesh(const std::string& name, Make&& make) {
   const auto get = [&](auto* data, std::uint64_t bytes) -> bool {
     return !!in.read(reinterpret_cast<char*>(data), static_cast<std::streamsize>(bytes));
   };
-  if (!error && get(counts.data(), sizeof counts) && counts[0] <= size / vertex && counts[1] <= size / triangle &&
+  if (!error && get(counts.data(), sizeof counts) && counts[0] <= size / vertex &&
+      counts[1] <= size / triangle &&
       size == sizeof counts + counts[0] * vertex + counts[1] * triangle) {
     MeshArrays kept{Points(counts[0], 2), Triples(counts[1], 3)};
-    if (get(kept.first.data(), counts[0] * vertex) && get(kept.second.data(), counts[1] * triangle) && counts[1] > 0 &&
+    if (get(kept.first.data(), counts[0] * vertex) &&
+        get(kept.second.data(), counts[1] * triangle) && counts[1] > 0 &&
         kept.second.minCoeff() >= 0 && kept.second.maxCoeff() < kept.first.rows())
       return kept;
   }
   MeshArrays made = make();
-  counts = {static_cast<std::uint64_t>(made.first.rows()), static_cast<std::uint64_t>(made.second.rows())};
+  counts = {static_cast<std::uint64_t>(made.first.rows()),
+            static_cast<std::uint64_t>(made.second.rows())};
   write_file(path, [&](std::ostream& out) {
     const auto put = [&](const auto* data, std::uint64_t bytes) {
       out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(bytes));
@@ -92,11 +101,14 @@ std::string hexadecimal(double x) { return x == 0 ? "0x0p+0" : fmt::format("{:a}
 
 TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
   check_mesh_request(cells, 512, domain);
-  const double depth = domain.layer_depth, h = 1.0 / cells, h_layer = depth > 0 ? std::min(h, depth / 2) : h;
+  const double depth = domain.layer_depth, h = 1.0 / cells,
+               h_layer = depth > 0 ? std::min(h, depth / 2) : h;
   // gmsh's seconds grow faster than its triangles: 0.5 s at 64 cells, 4 at 128, 28 at 256
   constexpr int most_by_gmsh = 128, most_to_refine = 80;
   int halvings = 0;
-  const auto fits = [&](int k) { return depth == 0 || (1 << k) * h_layer <= depth; };  // else its triangles were flat
+  const auto fits = [&](int k) {
+    return depth == 0 || (1 << k) * h_layer <= depth;
+  };  // else its triangles were flat
   if (cells > most_by_gmsh)
     while ((most_to_refine << halvings) < cells && fits(halvings + 1)) ++halvings;
   const double h_made = (1 << halvings) * h, h_layer_made = (1 << halvings) * h_layer;

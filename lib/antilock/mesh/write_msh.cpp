@@ -21,9 +21,12 @@ struct Group {
 };
 
 /// The groups that the mesh has elements of, those of `named` last.
-std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<BoundaryCondition>& named) {
+std::vector<Group> groups_of(const TriangleMesh& mesh,
+                             const std::vector<BoundaryCondition>& named) {
   std::vector<Group> groups;
-  const auto has = [](const auto& all, auto tag) { return std::find(all.begin(), all.end(), tag) != all.end(); };
+  const auto has = [](const auto& all, auto tag) {
+    return std::find(all.begin(), all.end(), tag) != all.end();
+  };
   const auto add_curves = [&](EdgeTag tag, const std::string& name) {
     if (has(mesh.edge_tag, tag)) groups.push_back({1, physical_number(tag), name});
   };
@@ -37,7 +40,8 @@ std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<Boundar
   add_surfaces(Region::body, "body");
   add_surfaces(Region::layer, "layer");
   for (int k = 0; k < static_cast<int>(named.size()); ++k)
-    for (const EdgeTag tag : {natural_group(k), dirichlet_group(k)}) add_curves(tag, named[k].group);
+    for (const EdgeTag tag : {natural_group(k), dirichlet_group(k)})
+      add_curves(tag, named[k].group);
   return groups;
 }
 
@@ -51,7 +55,8 @@ void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh,
     text.print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
     const std::vector<Group> groups = groups_of(mesh, named);
     text.print("$PhysicalNames\n{}\n", groups.size());
-    for (const Group& group : groups) text.print("{} {} \"{}\"\n", group.dimension, group.number, group.name);
+    for (const Group& group : groups)
+      text.print("{} {} \"{}\"\n", group.dimension, group.number, group.name);
     text.print("$EndPhysicalNames\n$Nodes\n{}\n", mesh.vertex_count());
     for (int v = 0; v < mesh.vertex_count(); ++v)
       text.print(FMT_COMPILE("{} {} {} 0\n"), v + 1, mesh.vertices(v, 0), mesh.vertices(v, 1));
@@ -62,8 +67,8 @@ void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh,
       text.print(FMT_COMPILE("{} 1 2 {} {} {} {}\n"), ++number, label, label, from + 1, to + 1);
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       const int group = static_cast<int>(mesh.region[t]);
-      text.print(FMT_COMPILE("{} 2 2 {} {} {} {} {}\n"), ++number, group, group, mesh.triangles(t, 0) + 1,
-                 mesh.triangles(t, 1) + 1, mesh.triangles(t, 2) + 1);
+      text.print(FMT_COMPILE("{} 2 2 {} {} {} {} {}\n"), ++number, group, group,
+                 mesh.triangles(t, 0) + 1, mesh.triangles(t, 1) + 1, mesh.triangles(t, 2) + 1);
     }
     text.print("$EndElements\n");
   });

@@ -27,13 +27,14 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
     const EdgeTag tag = mesh.edge_tag[e];
     const int k = tag.group;
     if (k >= static_cast<int>(scene.edges().size()))
-      throw Error(
-          fmt::format("scene and mesh: the edge at {} is in the group {}, of which the scene says nothing; "
-                      "accepted: a condition per group",
-                      mesh.location_text(mesh.edges(e, 0)), k));
+      throw Error(fmt::format(
+          "scene and mesh: the edge at {} is in the group {}, of which the scene says nothing; "
+          "accepted: a condition per group",
+          mesh.location_text(mesh.edges(e, 0)), k));
     if (k >= 0 && is_dirichlet(tag) != (scene.edges()[k].kind == Kind::displacement))
       throw Error("scene and mesh: the group " + scene.edges()[k].group +
-                  " is held in one of the two alone; accepted: dirichlet_group for a displacement, natural_group else");
+                  " is held in one of the two alone; accepted: dirichlet_group for a displacement, "
+                  "natural_group else");
   }
   const int loose = find_floating_component(mesh, [&](int e) {
     const int k = mesh.edge_tag[e].group;
@@ -44,26 +45,31 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
                 mesh.location_text(mesh.triangles(loose, 0)) +
                 "; accepted: a displacement or a spring on one of its edges");
   const auto& region = mesh.region;
-  const bool mesh_has_layer = std::find(region.begin(), region.end(), Region::layer) != region.end();
+  const bool mesh_has_layer =
+      std::find(region.begin(), region.end(), Region::layer) != region.end();
   if (mesh_has_layer != (scene.layer_depth() > 0))
     throw Error("scene and mesh: " +
-                std::string(mesh_has_layer ? "the scene has no layer to mesh, the mesh has a group layer"
-                                           : "the scene has a layer, the mesh has no group layer") +
+                std::string(mesh_has_layer
+                                ? "the scene has no layer to mesh, the mesh has a group layer"
+                                : "the scene has a layer, the mesh has no group layer") +
                 "; accepted: both or none");
   if (mesh.curved()) return;
-  constexpr double slack = 1e-6;  // of the sizes of body and layer: formats with few digits place a vertex to 1e-8
+  constexpr double slack =
+      1e-6;  // of the sizes of body and layer: formats with few digits place a vertex to 1e-8
   const double size = body_size(mesh);
   for (int e = 0; mesh_has_layer && e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
       if (mesh.edge_tag[e] == EdgeTag::sigma && std::abs(mesh.vertices(v, 1)) > slack * size)
-        throw Error("scene and mesh: Sigma has a vertex at " + mesh.location_text(v) +
-                    "; accepted: Sigma on the line y = 0, or a layer that is grown along its normals");
+        throw Error(
+            "scene and mesh: Sigma has a vertex at " + mesh.location_text(v) +
+            "; accepted: Sigma on the line y = 0, or a layer that is grown along its normals");
   // (22) and (23) differ by the depth of their meshes
   const double lowest = mesh.vertices.col(1).minCoeff(), wanted = -scene.layer_depth();
   const double off = slack * std::max(size, scene.layer_depth());
   if (mesh_has_layer && (lowest < wanted - off || (lowest > wanted + off && is_whole(mesh))))
     throw Error(
-        fmt::format("scene and mesh: the mesh reaches down to y = {:.6g}; accepted: y = {:.6g}, the lower side of the "
+        fmt::format("scene and mesh: the mesh reaches down to y = {:.6g}; accepted: y = {:.6g}, "
+                    "the lower side of the "
                     "layer of this scene",
                     lowest, wanted));
 }
@@ -73,7 +79,8 @@ void follow_normals(VariationalInequality& problem, const StiffLayer& layer, con
                     const StiffnessRange& range) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = strain_quadrature(space.element());
-  FactoredForm along = layer_strain(space, [&](int t) { return Eigen::Vector2d(1, mesh.curved_columns[t].slope); });
+  FactoredForm along =
+      layer_strain(space, [&](int t) { return Eigen::Vector2d(1, mesh.curved_columns[t].slope); });
   Eigen::VectorXd stiffness(along.m.size());
   for (Eigen::Index row = 0; row < along.m.size(); ++row) {
     const int t = along.cell[row];
@@ -83,17 +90,20 @@ void follow_normals(VariationalInequality& problem, const StiffLayer& layer, con
     problem.m(row) *= length * j;
     stiffness(row) = layer.s / (length * j);
   }
-  if (!range.fits_in_a1(layer.s)) return range.append(problem, {std::move(along), std::move(stiffness)});
+  if (!range.fits_in_a1(layer.s))
+    return range.append(problem, {std::move(along), std::move(stiffness)});
   along.m.array() *= stiffness.array();
   problem.a1 += Eigen::SparseMatrix<double>(along.b.transpose() * along.m.asDiagonal() * along.b);
 }
 
 /// T: the stiffness of each triangle in A1, `layer` that of the layer's.
-std::vector<Stiffness> stiffness_of_triangles(const Scene& scene, const TriangleMesh& mesh, const Stiffness& layer) {
+std::vector<Stiffness> stiffness_of_triangles(const Scene& scene, const TriangleMesh& mesh,
+                                              const Stiffness& layer) {
   std::vector<Stiffness> of_triangle;
   of_triangle.reserve(mesh.triangle_count());
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const double k = mesh.region[t] == Region::layer ? 0 : stiffness_on(scene.body().stiffness, mesh, t);
+    const double k =
+        mesh.region[t] == Region::layer ? 0 : stiffness_on(scene.body().stiffness, mesh, t);
     of_triangle.push_back(mesh.region[t] == Region::layer ? layer : Stiffness{k, k});
   }
   return of_triangle;
@@ -103,7 +113,8 @@ std::vector<Stiffness> stiffness_of_triangles(const Scene& scene, const Triangle
 std::vector<WeightedFactoredForm> springs_of(const Scene& scene, const Space& space) {
   std::vector<WeightedFactoredForm> springs;
   for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k)
-    if (const BoundaryCondition& edge = scene.edges()[k]; edge.kind == BoundaryCondition::Kind::spring)
+    if (const BoundaryCondition& edge = scene.edges()[k];
+        edge.kind == BoundaryCondition::Kind::spring)
       springs.push_back(edge_rows(space, natural_group(k), edge.value));
   return springs;
 }
@@ -123,7 +134,8 @@ void add_springs(VariationalInequality& problem, const std::vector<WeightedFacto
     const double largest = rows.form.m.cwiseProduct(rows.stiffness).maxCoeff();
     if (largest > 1e20 * range.softest())
       throw Error(
-          fmt::format("spring: its stiffness times the length of an edge is {:.3g}, and the softest stiffness is "
+          fmt::format("spring: its stiffness times the length of an edge is {:.3g}, and the "
+                      "softest stiffness is "
                       "{:.3g}; accepted: up to 1e20 times as much, or a displacement",
                       largest, range.softest()));
     if (range.fits_in_a1(largest))
@@ -152,8 +164,9 @@ class PrescribedValues {
     std::vector<double> values;
     for (const auto& [tag, value] : of_tags)
       if (tag.group >= 0) values.push_back(value);
-    if (values.empty()) return 0;             // clamped edges alone
-    std::sort(values.begin(), values.end());  // the sum of three, too, is the same in every order of the sections
+    if (values.empty()) return 0;  // clamped edges alone
+    std::sort(values.begin(),
+              values.end());  // the sum of three, too, is the same in every order of the sections
     if (values.front() == values.back()) return values.front();
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   }
@@ -163,7 +176,9 @@ class PrescribedValues {
 
 /// The values that the named groups of edges prescribe.
 void add_displacements(VariationalInequality& problem, const Scene& scene, const Space& space) {
-  const auto prescribes = [](const BoundaryCondition& e) { return e.kind == BoundaryCondition::Kind::displacement; };
+  const auto prescribes = [](const BoundaryCondition& e) {
+    return e.kind == BoundaryCondition::Kind::displacement;
+  };
   if (std::none_of(scene.edges().begin(), scene.edges().end(), prescribes)) return;
   const TriangleMesh& mesh = space.mesh();
   const Eigen::MatrixX3d nodes = space.element().support_points();
@@ -174,16 +189,19 @@ void add_displacements(VariationalInequality& problem, const Scene& scene, const
       if (!is_dirichlet(mesh.edge_tag[e])) continue;
       for (Eigen::Index j = 0; j < nodes.rows(); ++j)
         if (const int unknown = space.cell_dofs()(t, j); nodes(j, i) == 0)
-          values.give(unknown, mesh.edge_tag[e], prescribed_on(scene, mesh, e, space.dof_coordinates().row(unknown)));
+          values.give(unknown, mesh.edge_tag[e],
+                      prescribed_on(scene, mesh, e, space.dof_coordinates().row(unknown)));
     }
   values.for_each([&](int unknown, double value) {
-    const auto place = std::lower_bound(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end(), unknown);
+    const auto place =
+        std::lower_bound(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end(), unknown);
     problem.dirichlet_values(place - problem.dirichlet_dofs.begin()) = value;
   });
 }
 
 /// The range of the stiffnesses of all parts of a scene. Throws Error where they are too far apart.
-StiffnessRange checked_range(const Scene& scene, const TriangleMesh& mesh, const std::vector<Stiffness>& of_triangles,
+StiffnessRange checked_range(const Scene& scene, const TriangleMesh& mesh,
+                             const std::vector<Stiffness>& of_triangles,
                              const std::vector<WeightedFactoredForm>& springs) {
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
   StiffnessRange range(stiff != nullptr ? stiff->s : 1);
@@ -222,12 +240,14 @@ void add_layer(VariationalInequality& problem, const StiffLayer& layer, const Sp
 }
 
 /// The bounds on Gamma_C.
-void add_contact(VariationalInequality& problem, const UnilateralContact& contact, const Space& space) {
+void add_contact(VariationalInequality& problem, const UnilateralContact& contact,
+                 const Space& space) {
   const Eigen::VectorXd x = space.dof_coordinates().col(0)(space.contact_dofs());
   problem.bounds = Bounds::lower_on(space.contact_dofs(), -x.unaryExpr(contact.gap));
   const Eigen::VectorXd& lower = problem.bounds.lower;
   for (Eigen::Index i = 0; i < x.size(); ++i)
-    if (!std::isfinite(lower(i))) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
+    if (!std::isfinite(lower(i)))
+      throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
   if (!contact.upper_obstacle) return;
   Eigen::VectorXd& upper = problem.bounds.upper;
   upper = x.unaryExpr(contact.upper_obstacle);
@@ -242,10 +262,12 @@ void add_contact(VariationalInequality& problem, const UnilateralContact& contac
 
 double class_parameter(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
 
-double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const Eigen::RowVector2d& x) {
+double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e,
+                     const Eigen::RowVector2d& x) {
   const int k = mesh.edge_tag[e].group;
   if (k < 0) return 0;
-  return scene.edges()[k].value(x(0), mesh.region[mesh.edge_triangles(e, 0)] == Region::layer ? 0 : x(1));
+  return scene.edges()[k].value(x(0),
+                                mesh.region[mesh.edge_triangles(e, 0)] == Region::layer ? 0 : x(1));
 }
 
 Eigen::VectorXd dirichlet_vertex_values(const Scene& scene, const TriangleMesh& mesh) {
@@ -264,7 +286,8 @@ Eigen::VectorXd load_of(const Scene& scene, const Space& space) {
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
   if (stiff != nullptr && stiff->load) load += load_vector(space, stiff->load, Region::layer);
   for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k)
-    if (const BoundaryCondition& edge = scene.edges()[k]; edge.kind == BoundaryCondition::Kind::traction)
+    if (const BoundaryCondition& edge = scene.edges()[k];
+        edge.kind == BoundaryCondition::Kind::traction)
       load += edge_load(space, natural_group(k), edge.value);
   return load;
 }
@@ -272,7 +295,8 @@ Eigen::VectorXd load_of(const Scene& scene, const Space& space) {
 VariationalInequality assemble(const Scene& scene, const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   check_fit(scene, mesh);
-  static_assert(std::variant_size_v<Layer> == 4, "what a new layer adds to A1 and to B stands here");
+  static_assert(std::variant_size_v<Layer> == 4,
+                "what a new layer adds to A1 and to B stands here");
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
   const auto* thin = std::get_if<ThinLayer>(&scene.layer());
   Stiffness layer{0, 0};
@@ -296,7 +320,8 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   add_springs(problem, springs, range);
 
   problem.dirichlet_dofs = space.dirichlet_dofs();
-  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
+  problem.dirichlet_values =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   add_displacements(problem, scene, space);
   problem.load = load_of(scene, space);
   if (scene.contact()) add_contact(problem, *scene.contact(), space);

@@ -14,15 +14,17 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
   if (!(t >= 0 && t <= 1)) throw Error(fmt::format("coating: thickness {}; accepted 0 to 1", t));
   for (const Lame& material : {coating.body, coating.layer})
     if (!(material.mu > 0 && material.lambda >= 0))
-      throw Error(
-          fmt::format("coating: lambda = {}, mu = {}; accepted lambda >= 0 and mu > 0", material.lambda, material.mu));
+      throw Error(fmt::format("coating: lambda = {}, mu = {}; accepted lambda >= 0 and mu > 0",
+                              material.lambda, material.mu));
   const auto& [lambda, mu] = coating.layer;
   Eigen::Matrix4d body = coating.body.matrix(), membrane = Eigen::Matrix4d::Zero();
   membrane(0, 0) = coating.layer.plane_strain_modulus();
   StiffnessRange range(mu);
-  for (const double stiffness : {coating.body.mu, coating.body.lambda + 2 * coating.body.mu, membrane(0, 0)})
+  for (const double stiffness :
+       {coating.body.mu, coating.body.lambda + 2 * coating.body.mu, membrane(0, 0)})
     range.note(stiffness);
-  if (!space.x.element().conforming() || !space.y.element().conforming()) range.note(2 * coating.jump_weight);
+  if (!space.x.element().conforming() || !space.y.element().conforming())
+    range.note(2 * coating.jump_weight);
   range.check("coating");
   const bool body_fits_in_a1 = range.fits_in_a1(body.maxCoeff()),
              membrane_fits_in_a1 = range.fits_in_a1(membrane(0, 0));
@@ -30,19 +32,21 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
   if (!membrane_fits_in_a1) membrane.setZero();
   VariationalInequality problem;
   problem.a1 = strain_form(space, body, membrane);
-  FactoredForm rows =
-      strain_form_factored(space,
-                           {{{lambda / (lambda + 2 * mu) * t, 0, 0, 1}, lambda + 2 * mu},  // v_Y + r t u_x
-                            {{0, 1, t, 0}, mu}},                                           // u_Y + t v_x
-                           Region::layer);
-  if (rows.m.size() == 0) throw Error("coating: the mesh has no layer; accepted: a body with a layer below");
+  FactoredForm rows = strain_form_factored(
+      space,
+      {{{lambda / (lambda + 2 * mu) * t, 0, 0, 1}, lambda + 2 * mu},  // v_Y + r t u_x
+       {{0, 1, t, 0}, mu}},                                           // u_Y + t v_x
+      Region::layer);
+  if (rows.m.size() == 0)
+    throw Error("coating: the mesh has no layer; accepted: a body with a layer below");
   problem.b.swap(rows.b);
   problem.m = std::move(rows.m);
   problem.compliance = t * t;
   const auto append = [&](const std::vector<StrainTerm>& strains, Region region) {
     range.append(problem, stiff_strain_rows(space, strains, region));
   };
-  if (!membrane_fits_in_a1) append({{{1, 0, 0, 0}, coating.layer.plane_strain_modulus()}}, Region::layer);
+  if (!membrane_fits_in_a1)
+    append({{{1, 0, 0, 0}, coating.layer.plane_strain_modulus()}}, Region::layer);
   if (!body_fits_in_a1) append(coating.body.rows(), Region::body);
   add_block_loading(problem, coating, space, &range);
   return problem;
@@ -52,7 +56,8 @@ Eigen::VectorXd pressure(const Coating& coating, const VectorSpace& space, const
                          const Eigen::VectorXd& p) {
   const TriangleMesh& mesh = space.x.mesh();
   const auto& [lambda, mu] = coating.body;
-  const FactoredForm body = strain_form_factored(space, {{{lambda, 0, 0, lambda + 2 * mu}}}, Region::body);
+  const FactoredForm body =
+      strain_form_factored(space, {{{lambda, 0, 0, lambda + 2 * mu}}}, Region::body);
   const Eigen::VectorXd stress = body.b * u;
   Eigen::VectorXd pressure = Eigen::VectorXd::Zero(mesh.triangle_count());
   const Eigen::VectorXd weights = strain_quadrature(space).weights;
@@ -68,7 +73,8 @@ Eigen::VectorXd pressure(const Coating& coating, const VectorSpace& space, const
 }
 
 std::optional<double> penalty(const Coating& coating, const VectorSpace& space) {
-  if (coating.thickness == 0 || !(space.x.element().conforming() || space.y.element().conforming())) return {};
+  if (coating.thickness == 0 || !(space.x.element().conforming() || space.y.element().conforming()))
+    return {};
   return std::max(coating.thickness * coating.thickness, 1e-12);
 }
 

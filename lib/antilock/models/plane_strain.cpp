@@ -17,7 +17,8 @@ namespace antilock {
 
 namespace {
 
-/// The friction bound of every unknown of u_x: int g phi_i, g taken from the midpoint of each contact edge.
+/// The friction bound of every unknown of u_x: int g phi_i, g taken from the midpoint of each
+/// contact edge.
 Eigen::VectorXd friction_bounds(const Profile& g, const Space& space) {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(space.size());
   const TriangleMesh& mesh = space.mesh();
@@ -27,22 +28,27 @@ Eigen::VectorXd friction_bounds(const Profile& g, const Space& space) {
       if (mesh.edge_tag[e] != EdgeTag::contact) continue;
       const Eigen::Vector3d midpoint = 0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(i));
       const double here = g(point_in(mesh, t, midpoint)(0));
-      if (!(here >= 0)) throw Error(fmt::format("plane strain: friction bound {}; accepted 0 or more", here));
+      if (!(here >= 0))
+        throw Error(fmt::format("plane strain: friction bound {}; accepted 0 or more", here));
       const Eigen::VectorXd share = means_on_edge(space.element(), i);
-      for (Eigen::Index k = 0; k < share.size(); ++k)  // an infinite g is for the unknowns on the edge alone
-        if (std::abs(share(k)) > 1e-15) bounds(space.cell_dofs()(t, k)) += mesh.edge_length(e) * here * share(k);
+      for (Eigen::Index k = 0; k < share.size();
+           ++k)  // an infinite g is for the unknowns on the edge alone
+        if (std::abs(share(k)) > 1e-15)
+          bounds(space.cell_dofs()(t, k)) += mesh.edge_length(e) * here * share(k);
     }
   return bounds;
 }
 
-/// Behind the bounds of u_y: u_x = 0 on the free contact unknowns, as long as the force is below its bound.
+/// Behind the bounds of u_y: u_x = 0 on the free contact unknowns, as long as the force is below
+/// its bound.
 void add_friction(VariationalInequality& problem, const Profile& g, const Space& in_x) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Eigen::VectorXd all = friction_bounds(g, in_x), normal = problem.bounds.lower;
   std::vector<int> unknowns = problem.bounds.unknowns;
   std::vector<double> limits;
   for (const int i : in_x.contact_dofs()) {
-    if (std::binary_search(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end(), i)) continue;
+    if (std::binary_search(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end(), i))
+      continue;
     unknowns.push_back(i);
     limits.push_back(all(i));
   }
@@ -59,13 +65,15 @@ void add_friction(VariationalInequality& problem, const Profile& g, const Space&
 
 }  // namespace
 
-void add_block_loading(VariationalInequality& problem, const BlockLoading& press, const VectorSpace& space,
-                       const StiffnessRange* range) {
-  if (!std::isfinite(press.prescribed_displacement)) throw Error("plane strain: push is not finite");
+void add_block_loading(VariationalInequality& problem, const BlockLoading& press,
+                       const VectorSpace& space, const StiffnessRange* range) {
+  if (!std::isfinite(press.prescribed_displacement))
+    throw Error("plane strain: push is not finite");
   if (!(press.jump_weight >= 0))
     throw Error(fmt::format("plane strain: jump weight {}; accepted 0 or more", press.jump_weight));
   if (!have_one_mesh(space.x, space.y))
-    throw Error("plane strain: the two components live on different meshes; accepted: spaces of one mesh");
+    throw Error(
+        "plane strain: the two components live on different meshes; accepted: spaces of one mesh");
   const int shift = space.x.size();
   const bool steps = press.jump_weight > 0;
   if (steps && (range == nullptr || range->fits_in_a1(2 * press.jump_weight)))
@@ -84,14 +92,15 @@ void add_block_loading(VariationalInequality& problem, const BlockLoading& press
   set_dirichlet(problem, fixed);
   std::vector<int> normal;
   for (const int i : space.y.contact_dofs()) normal.push_back(shift + i);
-  problem.bounds =
-      Bounds::lower_on(normal, -space.y.dof_coordinates().col(0)(space.y.contact_dofs()).unaryExpr(press.gap));
+  problem.bounds = Bounds::lower_on(
+      normal, -space.y.dof_coordinates().col(0)(space.y.contact_dofs()).unaryExpr(press.gap));
   if (press.friction) add_friction(problem, press.friction, space.x);
 }
 
 VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& space) {
   if (!(scene.epsilon >= 0 && scene.epsilon <= 1))
-    throw Error(fmt::format("plane strain: epsilon = 1/lambda = {}; accepted 0 to 1", scene.epsilon));
+    throw Error(
+        fmt::format("plane strain: epsilon = 1/lambda = {}; accepted 0 to 1", scene.epsilon));
   VariationalInequality problem;
   strain_form(space).swap(problem.a1);
   FactoredForm div = divergence(space);
@@ -107,7 +116,8 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
 TriangleMesh with_free_sides(TriangleMesh mesh) {
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const double x0 = mesh.vertices(mesh.edges(e, 0), 0), x1 = mesh.vertices(mesh.edges(e, 1), 0);
-    if (mesh.edge_triangles(e, 1) < 0 && x0 == x1 && (x0 == 0 || x0 == 1)) mesh.edge_tag[e] = EdgeTag::free;
+    if (mesh.edge_triangles(e, 1) < 0 && x0 == x1 && (x0 == 0 || x0 == 1))
+      mesh.edge_tag[e] = EdgeTag::free;
   }
   return mesh;
 }

@@ -25,8 +25,8 @@ struct BlockLoading {
 /// jump form that is too stiff for A1 becomes rows of B with fixed compliances. Without it,
 /// jump_form is assembled into A1. Throws Error for values out of range and for components on two
 /// meshes.
-void add_block_loading(VariationalInequality& problem, const BlockLoading& press, const VectorSpace& space,
-                       const StiffnessRange* range = nullptr);
+void add_block_loading(VariationalInequality& problem, const BlockLoading& press,
+                       const VectorSpace& space, const StiffnessRange* range = nullptr);
 
 /// Nearly incompressible elasticity with mu = 1 (the introduction of [SR04], which is cited in
 /// problem/variational_inequality.hpp). lambda and mu are Lame's moduli. a1 = 2 int eps(u):eps(v),

@@ -27,14 +27,16 @@ std::map<int, double> held(const Plate& plate, const PlateSpace& space) {
   hold(space.rotation.y, space.theta_y(), plate.boundary_rotation_y);
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (!is_dirichlet(mesh.edge_tag[e])) continue;
-    const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
+    const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)),
+                             b = mesh.vertices.row(mesh.edges(e, 1));
     const Eigen::RowVector2d middle = (a + b) / 2, along = (b - a).normalized();
     const auto curve = [&](const Field& f) {  // Simpson's mean minus the mean of the ends
       return 2 * (f(middle(0), middle(1)) - (f(a(0), a(1)) + f(b(0), b(1))) / 2) / 3;
     };
     if (!space.deflection.element().conforming())
-      values[e] = (plate.boundary_deflection(a(0), a(1)) + plate.boundary_deflection(b(0), b(1))) / 2 +
-                  curve(plate.boundary_deflection);
+      values[e] =
+          (plate.boundary_deflection(a(0), a(1)) + plate.boundary_deflection(b(0), b(1))) / 2 +
+          curve(plate.boundary_deflection);
     if (space.shear == ShearRule::edges)
       values[space.on_edges() + e] =
           along(0) * curve(plate.boundary_rotation_x) + along(1) * curve(plate.boundary_rotation_y);
@@ -42,22 +44,27 @@ std::map<int, double> held(const Plate& plate, const PlateSpace& space) {
   return values;
 }
 
-/// The corners of the rim lie on the obstacle or above; else no plate at all lies above the obstacle, and only the mesh
-/// hides it. They are where they are to 1e-9 of an edge or so: a millionth of what the gap is around them counts as 0.
+/// The corners of the rim lie on the obstacle or above; else no plate at all lies above the
+/// obstacle, and only the mesh hides it. They are where they are to 1e-9 of an edge or so: a
+/// millionth of what the gap is around them counts as 0.
 void require_rim_above(const Plate& plate, const TriangleMesh& mesh) {
-  const auto gap = [&](int corner) { return plate.gap(mesh.vertices(corner, 0), mesh.vertices(corner, 1)); };
+  const auto gap = [&](int corner) {
+    return plate.gap(mesh.vertices(corner, 0), mesh.vertices(corner, 1));
+  };
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (!is_dirichlet(mesh.edge_tag[e])) continue;
     double around = 0;
     for (const int corner : mesh.triangles.row(mesh.edge_triangles(e, 0)))
-      if (const double size = std::abs(gap(corner)); std::isfinite(size)) around = std::max(around, size);
+      if (const double size = std::abs(gap(corner)); std::isfinite(size))
+        around = std::max(around, size);
     for (const int corner : mesh.edges.row(e)) {
-      const double x = mesh.vertices(corner, 0), y = mesh.vertices(corner, 1), rim = plate.boundary_deflection(x, y);
+      const double x = mesh.vertices(corner, 0), y = mesh.vertices(corner, 1),
+                   rim = plate.boundary_deflection(x, y);
       if (rim + gap(corner) < -1e-6 * around)
-        throw Error(
-            fmt::format("plate: the rim is held at w = {:.6g} in ({:.6g}, {:.6g}), below the obstacle at "
-                        "{:.6g}; accepted: on it or above",
-                        rim, x, y, -gap(corner)));
+        throw Error(fmt::format(
+            "plate: the rim is held at w = {:.6g} in ({:.6g}, {:.6g}), below the obstacle at "
+            "{:.6g}; accepted: on it or above",
+            rim, x, y, -gap(corner)));
     }
   }
 }
@@ -68,11 +75,14 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
   if (!(plate.thickness >= 0 && plate.thickness <= 1))
     throw Error(fmt::format("plate: thickness = {}; accepted 0 to 1", plate.thickness));
   if (!(plate.poisson >= 0 && plate.poisson < 1))
-    throw Error(fmt::format("plate: Poisson's ratio = {}; accepted 0 to less than 1", plate.poisson));
-  for (const Field* field :
-       {&plate.load, &plate.gap, &plate.boundary_deflection, &plate.boundary_rotation_x, &plate.boundary_rotation_y})
+    throw Error(
+        fmt::format("plate: Poisson's ratio = {}; accepted 0 to less than 1", plate.poisson));
+  for (const Field* field : {&plate.load, &plate.gap, &plate.boundary_deflection,
+                             &plate.boundary_rotation_x, &plate.boundary_rotation_y})
     if (!*field)
-      throw Error("plate: a function is empty; accepted: load, gap and the values on the rim, or their defaults");
+      throw Error(
+          "plate: a function is empty; accepted: load, gap and the values on the rim, or their "
+          "defaults");
   VariationalInequality problem;
   problem.a1 = bending_form(space, plate.poisson);
   FactoredForm shear = shear_form(space);
@@ -87,16 +97,19 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
   std::vector<int> bounded;
   std::vector<double> lower;
   for (int i = 0; i < space.deflection.size(); ++i) {
-    const double gap = plate.gap(space.deflection.dof_coordinates()(i, 0), space.deflection.dof_coordinates()(i, 1));
+    const double gap = plate.gap(space.deflection.dof_coordinates()(i, 0),
+                                 space.deflection.dof_coordinates()(i, 1));
     if (std::isnan(gap) || gap == -std::numeric_limits<double>::infinity())
-      throw Error(fmt::format("plate: the gap is {}; accepted: a number, or infinity for no obstacle", gap));
+      throw Error(fmt::format(
+          "plate: the gap is {}; accepted: a number, or infinity for no obstacle", gap));
     if (fixed.count(i) > 0 || std::isinf(gap)) continue;
     bounded.push_back(i);
     lower.push_back(-gap);
   }
   require_rim_above(plate, space.mesh());
   problem.bounds = Bounds::lower_on(
-      bounded, Eigen::Map<const Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size())));
+      bounded,
+      Eigen::Map<const Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size())));
   return problem;
 }
 

@@ -15,8 +15,8 @@ namespace antilock {
 /// If the projection is the identity, the problem does not change. With s > 0 the coercivity of a1'
 /// does not depend on the projection (D. N. Arnold and F. Brezzi 1993, for plates). Throws Error as
 /// `project_strain` and `projected_class_parameter` do.
-VariationalInequality project_strain(VariationalInequality problem, const StrainProjection& projection,
-                                     double exact_fraction = 0);
+VariationalInequality project_strain(VariationalInequality problem,
+                                     const StrainProjection& projection, double exact_fraction = 0);
 
 /// Returns (1 - s) c / (1 - s c), s = exact_fraction, the class parameter of the projected problem
 /// for the compliance c. It increases with c, from 0 at c = 0 to 1 at c = 1. Throws Error unless 0

@@ -11,7 +11,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Eigen::VectorXd infinities(Eigen::Index count) { return Eigen::VectorXd::Constant(count, infinity); }
+Eigen::VectorXd infinities(Eigen::Index count) {
+  return Eigen::VectorXd::Constant(count, infinity);
+}
 
 }  // namespace
 
@@ -20,28 +22,38 @@ double bound_or_infinity(double bound) {
 }
 
 BoundLimits::BoundLimits(Eigen::VectorXd lower_limits)
-    : lower(std::move(lower_limits)), upper(infinities(lower.size())), force_limit(infinities(lower.size())) {}
+    : lower(std::move(lower_limits)),
+      upper(infinities(lower.size())),
+      force_limit(infinities(lower.size())) {}
 
 BoundLimits::BoundLimits(Eigen::VectorXd lower_limits, Eigen::VectorXd upper_limits)
-    : lower(std::move(lower_limits)), upper(std::move(upper_limits)), force_limit(infinities(lower.size())) {}
+    : lower(std::move(lower_limits)),
+      upper(std::move(upper_limits)),
+      force_limit(infinities(lower.size())) {}
 
-BoundLimits::BoundLimits(Eigen::VectorXd lower_limits, Eigen::VectorXd upper_limits, Eigen::VectorXd force_limits)
-    : lower(std::move(lower_limits)), upper(std::move(upper_limits)), force_limit(std::move(force_limits)) {}
+BoundLimits::BoundLimits(Eigen::VectorXd lower_limits, Eigen::VectorXd upper_limits,
+                         Eigen::VectorXd force_limits)
+    : lower(std::move(lower_limits)),
+      upper(std::move(upper_limits)),
+      force_limit(std::move(force_limits)) {}
 
 // NaN counts as a limit: functions without limits must not accept it
 bool BoundLimits::has_upper_bounds() const { return (upper.array() != infinity).any(); }
 bool BoundLimits::has_force_limits() const { return (force_limit.array() != infinity).any(); }
 
 Eigen::VectorXd bounded_values(const Bounds& bounds, const Eigen::VectorXd& u) {
-  const auto on_unknowns = static_cast<Eigen::Index>(bounds.unknowns.size()), rows = bounds.constraints.rows();
+  const auto on_unknowns = static_cast<Eigen::Index>(bounds.unknowns.size()),
+             rows = bounds.constraints.rows();
   Eigen::VectorXd values(on_unknowns + rows);
   values.head(on_unknowns) = u(bounds.unknowns);
   if (rows > 0) values.tail(rows) = bounds.constraints * u;
   return values;
 }
 
-Eigen::VectorXd bound_forces(const Bounds& bounds, const Eigen::VectorXd& lambda, Eigen::Index size) {
-  const auto on_unknowns = static_cast<Eigen::Index>(bounds.unknowns.size()), rows = bounds.constraints.rows();
+Eigen::VectorXd bound_forces(const Bounds& bounds, const Eigen::VectorXd& lambda,
+                             Eigen::Index size) {
+  const auto on_unknowns = static_cast<Eigen::Index>(bounds.unknowns.size()),
+             rows = bounds.constraints.rows();
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(size);
   if (rows > 0) forces = bounds.constraints.transpose() * lambda.tail(rows);
   for (Eigen::Index i = 0; i < on_unknowns; ++i) forces(bounds.unknowns[i]) += lambda(i);
@@ -81,7 +93,8 @@ void require_lower_bounds(const Bounds& bounds, const std::string& who) {
   require_hard_bounds(bounds, who);
   if (bounds.constraints.rows() > 0 || bounds.has_upper_bounds())
     throw Error(who +
-                ": upper bounds and bounds on constraints are not known here; accepted: lower bounds on unknowns");
+                ": upper bounds and bounds on constraints are not known here; accepted: lower "
+                "bounds on unknowns");
 }
 
 }  // namespace antilock

@@ -32,7 +32,8 @@ struct BoundLimits {
   explicit BoundLimits(Eigen::VectorXd lower_limits);
   /// Makes hard bounds on both sides.
   BoundLimits(Eigen::VectorXd lower_limits, Eigen::VectorXd upper_limits);
-  BoundLimits(Eigen::VectorXd lower_limits, Eigen::VectorXd upper_limits, Eigen::VectorXd force_limits);
+  BoundLimits(Eigen::VectorXd lower_limits, Eigen::VectorXd upper_limits,
+              Eigen::VectorXd force_limits);
 
   /// Returns C.
   int count() const { return static_cast<int>(lower.size()); }
@@ -55,7 +56,9 @@ struct Bounds : BoundLimits {
   /// Makes no bounds, C = 0.
   Bounds() = default;
   Bounds(std::vector<int> bounded_unknowns, BoundLimits limits, const RowMatrix& bounded_rows = {})
-      : BoundLimits(std::move(limits)), unknowns(std::move(bounded_unknowns)), constraints(bounded_rows) {}
+      : BoundLimits(std::move(limits)),
+        unknowns(std::move(bounded_unknowns)),
+        constraints(bounded_rows) {}
   const BoundLimits& limits() const { return *this; }
   /// Returns hard lower bounds on unknowns, one value per unknown.
   static Bounds lower_on(std::vector<int> unknowns, Eigen::VectorXd lower) {
@@ -63,12 +66,14 @@ struct Bounds : BoundLimits {
   }
 };
 
-/// Returns the C bounded values of u (N): its entries at the bounded unknowns, then constraints * u.
+/// Returns the C bounded values of u (N): its entries at the bounded unknowns, then constraints *
+/// u.
 Eigen::VectorXd bounded_values(const Bounds& bounds, const Eigen::VectorXd& u);
 
 /// Returns E' lambda (N = size), the forces on the unknowns of the C forces lambda at the bounds. E
 /// maps u to bounded_values(u).
-Eigen::VectorXd bound_forces(const Bounds& bounds, const Eigen::VectorXd& lambda, Eigen::Index size);
+Eigen::VectorXd bound_forces(const Bounds& bounds, const Eigen::VectorXd& lambda,
+                             Eigen::Index size);
 
 /// Returns min(s_i - lower_i, upper_i - s_i) for each bounded value s_i of u (C): the distance to
 /// the nearer bound, negative where the bound is violated. It is infinite for a bound with a force

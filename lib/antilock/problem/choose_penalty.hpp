@@ -31,7 +31,9 @@ StiffnessRatio stiffness_ratio(const VariationalInequality& problem);
 /// delta^-1 B' M B fewer digits of A1. choose_penalty.cpp has the measurements behind 6e-8.
 constexpr double default_penalty = 6e-8;
 inline double choose_penalty(const StiffnessRatio& s) { return default_penalty * s.value(); }
-inline double choose_penalty(const VariationalInequality& problem) { return choose_penalty(stiffness_ratio(problem)); }
+inline double choose_penalty(const VariationalInequality& problem) {
+  return choose_penalty(stiffness_ratio(problem));
+}
 
 /// Returns the delta of a factor, max(compliance, penalty). If `penalty` is empty, the penalty is
 /// choose_penalty(problem). The compliance is left out where all rows of B have fixed compliances,

@@ -103,6 +103,7 @@ void set_dirichlet(VariationalInequality& problem, const std::map<int, double>& 
 /// as equations, u = lower, and the other bounds are removed, so that the problem is linear. Where
 /// `active` is the contact set of the solution, both problems have the same solution. Throws Error
 /// for another number of marks, and for bounds other than lower bounds on unknowns.
-VariationalInequality equality_constrained(VariationalInequality problem, const std::vector<bool>& active);
+VariationalInequality equality_constrained(VariationalInequality problem,
+                                           const std::vector<bool>& active);
 
 }  // namespace antilock

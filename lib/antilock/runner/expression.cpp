@@ -78,10 +78,11 @@ Value all_hold(Value first, std::vector<std::pair<Two, Value>> chain) {
 double sign_of(double a) { return double(a > 0) - double(a < 0); }
 double half_up(double a) { return std::floor(a + 0.5); }
 const std::map<std::string_view, One> functions{
-    {"sin", std::sin},   {"cos", std::cos},   {"tan", std::tan},   {"asin", std::asin},   {"acos", std::acos},
-    {"atan", std::atan}, {"sinh", std::sinh}, {"cosh", std::cosh}, {"tanh", std::tanh},   {"exp", std::exp},
-    {"ln", std::log},    {"log", std::log},   {"log2", std::log2}, {"log10", std::log10}, {"sqrt", std::sqrt},
-    {"abs", std::fabs},  {"sign", sign_of},   {"rint", half_up}};
+    {"sin", std::sin},   {"cos", std::cos},     {"tan", std::tan},   {"asin", std::asin},
+    {"acos", std::acos}, {"atan", std::atan},   {"sinh", std::sinh}, {"cosh", std::cosh},
+    {"tanh", std::tanh}, {"exp", std::exp},     {"ln", std::log},    {"log", std::log},
+    {"log2", std::log2}, {"log10", std::log10}, {"sqrt", std::sqrt}, {"abs", std::fabs},
+    {"sign", sign_of},   {"rint", half_up}};
 const std::map<std::string_view, Two> functions_of_two{
     {"min", [](double a, double b) { return std::isnan(b) ? b : std::min(a, b); }},
     {"max", [](double a, double b) { return std::isnan(b) ? b : std::max(a, b); }},
@@ -89,7 +90,8 @@ const std::map<std::string_view, Two> functions_of_two{
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::vector<std::string>& names) : text_(text), names_(names) {}
+  Reader(std::string_view text, const std::vector<std::string>& names)
+      : text_(text), names_(names) {}
   Value read() {
     Value all = choice();
     if (next(), at_ < text_.size())
@@ -98,7 +100,9 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& why) const { throw Error(fmt::format("{} at position {}", why, at_ + 1)); }
+  [[noreturn]] void fail(const std::string& why) const {
+    throw Error(fmt::format("{} at position {}", why, at_ + 1));
+  }
   void next() { at_ = std::min(text_.find_first_not_of(blanks, at_), text_.size()); }
   bool took(std::string_view sign) {
     next();
@@ -110,7 +114,8 @@ class Reader {
     if (!took(sign)) fail(fmt::format("\"{}\" is missing", sign));
   }
 
-  /// Refuses a number where a condition is meant, as in x == 0.2 || 0.5: no comparison was read since `before`.
+  /// Refuses a number where a condition is meant, as in x == 0.2 || 0.5: no comparison was read
+  /// since `before`.
   void require_comparison(int before, std::string_view beside) const {
     if (comparisons_ == before) fail(fmt::format("there is no comparison beside \"{}\"", beside));
   }
@@ -122,9 +127,8 @@ class Reader {
     require_comparison(before, "?");
     Value yes = choice();
     expect(":");
-    return [condition = std::move(condition), yes = std::move(yes), no = choice()](const double* at) {
-      return condition(at) != 0 ? yes(at) : no(at);
-    };
+    return [condition = std::move(condition), yes = std::move(yes),
+            no = choice()](const double* at) { return condition(at) != 0 ? yes(at) : no(at); };
   }
   /// A value, and all that binds to it at least as tightly as `least`.
   Value binary(int least) {
@@ -133,7 +137,8 @@ class Reader {
     Value left = took("-")   ? one([](double a) { return -a; }, binary(sign_binds))
                  : took("+") ? binary(sign_binds)
                              : value();
-    std::vector<std::pair<Two, Value>> rest;  // in a list: a sum of 2,000 terms is no deeper than one of two
+    std::vector<std::pair<Two, Value>>
+        rest;  // in a list: a sum of 2,000 terms is no deeper than one of two
     while (const Operator* const found = operator_here(least)) {
       if (found->binds == comparison_binds) {
         left = comparison(in_turn(std::move(left), std::exchange(rest, {})));
@@ -144,7 +149,8 @@ class Reader {
       at_ += found->sign.size();
       const int before = comparisons_;
       // 2^3^2 = 2^9, but 1-2-3 = (1-2)-3
-      rest.emplace_back(found->value, binary(found->binds == power_binds ? power_binds : found->binds + 1));
+      rest.emplace_back(found->value,
+                        binary(found->binds == power_binds ? power_binds : found->binds + 1));
       if (of_conditions) require_comparison(before, found->sign);
     }
     --nested_;
@@ -153,19 +159,23 @@ class Reader {
   /// The operator that stands here, if it binds at least as tightly as `least`; else null.
   const Operator* operator_here(int least) {
     next();
-    const auto found = std::find_if(operators.begin(), operators.end(),
-                                    [&](const Operator& o) { return text_.substr(at_, o.sign.size()) == o.sign; });
+    const auto found = std::find_if(operators.begin(), operators.end(), [&](const Operator& o) {
+      return text_.substr(at_, o.sign.size()) == o.sign;
+    });
     return found == operators.end() || found->binds < least ? nullptr : &*found;
   }
-  /// One comparison, or a chain of them: a < b <= c is a < b && b <= c, as in mathematics. A chain that changes its
-  /// direction, or that joins == or != to others, has no one meaning there and is refused.
+  /// One comparison, or a chain of them: a < b <= c is a < b && b <= c, as in mathematics. A chain
+  /// that changes its direction, or that joins == or != to others, has no one meaning there and is
+  /// refused.
   Value comparison(Value first) {
     std::vector<std::pair<Two, Value>> chain;
     char direction = 0;
     while (const Operator* const found = operator_here(comparison_binds)) {
       const char here = found->sign[0];
       if (!chain.empty() && (here != direction || here == '!'))
-        fail("a chain of comparisons is all < and <=, all > and >=, or all ==; others need brackets or &&");
+        fail(
+            "a chain of comparisons is all < and <=, all > and >=, or all ==; others need brackets "
+            "or &&");
       direction = here;
       at_ += found->sign.size();
       ++comparisons_;
@@ -191,18 +201,22 @@ class Reader {
       at_ += static_cast<std::size_t>(end - rest.data());
       return [number](const double*) { return number; };
     }
-    if (!letter(rest[0])) fail(fmt::format("\"{}\" is not expected", printable(first_character(rest))));
-    const auto end = std::find_if_not(rest.begin(), rest.end(), [&](char c) { return letter(c) || in(c, '0', '9'); });
+    if (!letter(rest[0]))
+      fail(fmt::format("\"{}\" is not expected", printable(first_character(rest))));
+    const auto end = std::find_if_not(rest.begin(), rest.end(),
+                                      [&](char c) { return letter(c) || in(c, '0', '9'); });
     return name(rest.substr(0, static_cast<std::size_t>(end - rest.begin())));
   }
   Value name(std::string_view name) {
     const auto variable = std::find(names_.begin(), names_.end(), name);
     const auto function = functions.find(name);
     const auto of_two = functions_of_two.find(name);
-    if (variable == names_.end() && name != "pi" && function == functions.end() && of_two == functions_of_two.end())
+    if (variable == names_.end() && name != "pi" && function == functions.end() &&
+        of_two == functions_of_two.end())
       fail(fmt::format("\"{}\" is unknown", printable(name)));
     at_ += name.size();
-    if (variable != names_.end()) return [i = variable - names_.begin()](const double* at) { return at[i]; };
+    if (variable != names_.end())
+      return [i = variable - names_.begin()](const double* at) { return at[i]; };
     if (name == "pi") return [](const double*) { return std::numbers::pi; };
     expect("(");
     Value value = choice();
@@ -231,13 +245,14 @@ class Reader {
 Expression::Expression(std::string text, std::vector<std::string> variables)
     : text_(std::move(text)), names_(std::move(variables)) {
   const auto refuse = [&](const std::string& why) {
-    throw Error(
-        fmt::format("\"{}\" {}; accepted: an expression in {} with + - * / ^, comparisons, c ? a : b, pi, sin, "
-                    "cos, exp, sqrt, abs",
-                    printable(text_), why, fmt::join(names_, " and ")));
+    throw Error(fmt::format(
+        "\"{}\" {}; accepted: an expression in {} with + - * / ^, comparisons, c ? a : b, pi, sin, "
+        "cos, exp, sqrt, abs",
+        printable(text_), why, fmt::join(names_, " and ")));
   };
   if (text_.find_first_not_of(blanks) == std::string::npos) refuse("is empty");
-  if (text_.size() > longest_text) refuse(fmt::format("is longer than {} characters", longest_text));
+  if (text_.size() > longest_text)
+    refuse(fmt::format("is longer than {} characters", longest_text));
   try {
     value_ = Reader(text_, names_).read();
   } catch (const Error& error) {
@@ -247,14 +262,16 @@ Expression::Expression(std::string text, std::vector<std::string> variables)
 
 double Expression::operator()(std::span<const double> variables) const {
   if (variables.size() != names_.size())
-    throw Error(fmt::format("\"{}\" takes {} values, not {}", printable(text_), names_.size(), variables.size()));
+    throw Error(fmt::format("\"{}\" takes {} values, not {}", printable(text_), names_.size(),
+                            variables.size()));
   const double value = value_(variables.data());
   if (std::abs(value) <= largest_value) return value;
   std::string place;
   for (std::size_t i = 0; i < names_.size(); ++i)
     place += fmt::format("{}{} = {:.6g}", i > 0 ? ", " : "", names_[i], variables[i]);
-  throw Error(fmt::format("\"{}\" is {} at {}; accepted: finite values, none beyond {:g}", printable(text_),
-                          std::isfinite(value) ? fmt::format("{:g}", value) : "not finite", place, largest_value));
+  throw Error(fmt::format(
+      "\"{}\" is {} at {}; accepted: finite values, none beyond {:g}", printable(text_),
+      std::isfinite(value) ? fmt::format("{:g}", value) : "not finite", place, largest_value));
 }
 
 double Expression::operator()(double x, double y) const { return (*this)(std::array{x, y}); }

@@ -42,14 +42,15 @@ Eigen::Matrix<double, 6, 1> quadratics(const Eigen::Vector3d& lambda) {
 /// From the values at the points of a rule to the quadratic that fits them best.
 Eigen::MatrixXd quadratic_fit(const Quadrature& rule) {
   Eigen::MatrixXd at_points(rule.weights.size(), 6);
-  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) at_points.row(q) = quadratics(rule.points.row(q)).transpose();
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+    at_points.row(q) = quadratics(rule.points.row(q)).transpose();
   return pseudo_inverse(at_points);
 }
 
 /// V values: the displacement that is prescribed at a vertex, not a number where none is.
 Eigen::VectorXd prescribed(const SceneFile& file, const TriangleMesh& mesh) {
-  const Eigen::VectorXd given =
-      std::visit([&](const auto& model) { return model.dirichlet_values(file.scene, mesh); }, file.model);
+  const Eigen::VectorXd given = std::visit(
+      [&](const auto& model) { return model.dirichlet_values(file.scene, mesh); }, file.model);
   Eigen::VectorXd values = Eigen::VectorXd::Constant(mesh.vertex_count(), NAN);
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
@@ -68,7 +69,8 @@ double body_area(const TriangleMesh& mesh) {
 /// or none.
 class LoadSamples {
  public:
-  LoadSamples(const Space& space, const Field& f) : space_(space), f_(f), area_(body_area(space.mesh())) {
+  LoadSamples(const Space& space, const Field& f)
+      : space_(space), f_(f), area_(body_area(space.mesh())) {
     const Quadrature& rule = load_rule(space.element());
     const Eigen::MatrixXd fit = quadratic_fit(rule);
     const TriangleMesh& mesh = space.mesh();
@@ -150,8 +152,10 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
   const auto body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (!body(mesh.edge_triangles(e, 0)) && !body(mesh.edge_triangles(e, 1))) continue;
-    const Eigen::RowVector2d from = mesh.vertices.row(mesh.edges(e, 0)), to = mesh.vertices.row(mesh.edges(e, 1));
-    for (const double s : {0.0, 0.5, 1.0}) f((1 - s) * from(0) + s * to(0), (1 - s) * from(1) + s * to(1));
+    const Eigen::RowVector2d from = mesh.vertices.row(mesh.edges(e, 0)),
+                             to = mesh.vertices.row(mesh.edges(e, 1));
+    for (const double s : {0.0, 0.5, 1.0})
+      f((1 - s) * from(0) + s * to(0), (1 - s) * from(1) + s * to(1));
   }
   if (!file.scene.contact()) return;
   const auto& [gap, zero_at, upper_obstacle] = *file.scene.contact();
@@ -175,18 +179,22 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
     const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
     for (const int v : mesh.edges.row(e)) {
       const double x = mesh.vertices(v, 0), scale = std::max(largest, std::abs(values(v)));
-      const double round_off = std::min(1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))), 1e-6 * scale);
-      for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
+      const double round_off =
+          std::min(1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))), 1e-6 * scale);
+      for (const auto& [name, bound, sign] :
+           {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
         if (*bound && sign * values(v) > (*bound)(x) + round_off)
           throw InputError(
-              fmt::format("{0}: contact.{1}: {1}({2:.6g}) = {3:.6g}, but u = {4:.6g} is prescribed there; accepted: "
+              fmt::format("{0}: contact.{1}: {1}({2:.6g}) = {3:.6g}, but u = {4:.6g} is prescribed "
+                          "there; accepted: "
                           "{1} >= {5}u where Gamma_C meets an edge with a given u",
                           file.name, name, x, (*bound)(x), values(v), sign < 0 ? "-" : ""));
     }
   }
 }
 
-std::string load_warning(const SceneFile& file, const Space& space, const VariationalInequality& problem) {
+std::string load_warning(const SceneFile& file, const Space& space,
+                         const VariationalInequality& problem) {
   const LoadSamples samples(space, file.scene.body().load);
   const Eigen::Vector3d seen = integrals_by_quadrature(file, space, problem);
   const Eigen::Vector3d& sampled = samples.integrals();
@@ -194,14 +202,17 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
   for (int i = 0; i < 3; ++i)
     if (std::abs(seen(i) - sampled(i)) > significance * std::max(size(i), std::abs(seen(i))))
       return fmt::format(
-          "load.f: the quadrature of this mesh misses the load: the integral of {} is {:.3g} by the quadrature, {:.3g} "
-          "by {:.0f} points (that of its absolute value {:.3g}): a finer mesh is needed where the load lives",
+          "load.f: the quadrature of this mesh misses the load: the integral of {} is {:.3g} by "
+          "the quadrature, {:.3g} "
+          "by {:.0f} points (that of its absolute value {:.3g}): a finer mesh is needed where the "
+          "load lives",
           std::array{"f", "x f", "y f"}[i], seen(i), sampled(i), samples.count(), size(i));
   // integrals may agree by chance: what lives between the points of the rule, triangle by triangle,
   // is seen by none
   if (samples.is_unseen())
     return fmt::format(
-        "load.f: the quadrature of this mesh misses the load: {:.0f} % of the integral of |f| lie between its points, "
+        "load.f: the quadrature of this mesh misses the load: {:.0f} % of the integral of |f| lie "
+        "between its points, "
         "by {:.0f} samples: a finer mesh is needed where the load lives",
         samples.unseen_percent(), samples.count());
   return "";
@@ -209,19 +220,23 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
 
 std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh) {
   if (file.scene.edges().empty()) return "";
-  constexpr int parts = 8;  // of an edge: a formula that jumps twice on one of them is a matter of the mesh
+  constexpr int parts =
+      8;  // of an edge: a formula that jumps twice on one of them is a matter of the mesh
   constexpr double telling_jump = 1e-6;  // of the largest value: below, the formula's own rounding
   const auto at = [&](int e, double s) {
-    return Eigen::RowVector2d((1 - s) * mesh.vertices.row(mesh.edges(e, 0)) + s * mesh.vertices.row(mesh.edges(e, 1)));
+    return Eigen::RowVector2d((1 - s) * mesh.vertices.row(mesh.edges(e, 0)) +
+                              s * mesh.vertices.row(mesh.edges(e, 1)));
   };
   const auto value = [&](int e, double s) { return prescribed_on(file.scene, mesh, e, at(e, s)); };
   const auto name = [&](int e) {
     const int k = mesh.edge_tag[e].group;
     return k < 0 ? std::string("clamped") : file.scene.edges()[k].group;
   };
-  const auto line = [](const std::string& what, const Eigen::RowVector2d& x, const std::string& more) {
+  const auto line = [](const std::string& what, const Eigen::RowVector2d& x,
+                       const std::string& more) {
     return fmt::format(
-        "edge: {} at ({:.6g}, {:.6g}){}: no function of finite energy has such values, and the energy grows with every "
+        "edge: {} at ({:.6g}, {:.6g}){}: no function of finite energy has such values, and the "
+        "energy grows with every "
         "refinement",
         what, x(0), x(1), more);
   };
@@ -230,7 +245,8 @@ std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (!is_dirichlet(mesh.edge_tag[e])) continue;
     held.push_back(e);
-    for (int i = 0; i <= parts; ++i) largest = std::max(largest, std::abs(value(e, static_cast<double>(i) / parts)));
+    for (int i = 0; i <= parts; ++i)
+      largest = std::max(largest, std::abs(value(e, static_cast<double>(i) / parts)));
   }
   const auto apart = [&](double a, double b) { return std::abs(a - b) > telling_jump * largest; };
 
@@ -249,12 +265,14 @@ std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh
     for (int i = 0; i < parts; ++i) {
       double low = static_cast<double>(i) / parts, high = static_cast<double>(i + 1) / parts;
       double from = value(e, low), to = value(e, high);
-      while (apart(from, to)) {  // towards a jump, if there is one: the half that holds more of the difference
+      while (apart(
+          from,
+          to)) {  // towards a jump, if there is one: the half that holds more of the difference
         const double middle = (low + high) / 2, between = value(e, middle);
         if (!(low < middle && middle < high)) {
-          return line(
-              fmt::format("the displacement of the group {} jumps from {:.6g} to {:.6g}", printable(name(e)), from, to),
-              at(e, low), "");
+          return line(fmt::format("the displacement of the group {} jumps from {:.6g} to {:.6g}",
+                                  printable(name(e)), from, to),
+                      at(e, low), "");
         }
         const bool upper = std::abs(to - between) > std::abs(between - from);
         (upper ? low : high) = middle;
@@ -273,35 +291,41 @@ std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
     if (mesh.edge_triangles(e, 1) >= 0) continue;
     const int a = mesh.edges(e, 0), b = mesh.edges(e, 1);
     const Eigen::RowVector2d along = (mesh.vertices.row(b) - mesh.vertices.row(a)).normalized();
-    for (const auto& [vertex, away] : {std::pair(a, along), std::pair<int, Eigen::RowVector2d>(b, -along)}) {
+    for (const auto& [vertex, away] :
+         {std::pair(a, along), std::pair<int, Eigen::RowVector2d>(b, -along)}) {
       if (turn[vertex] == Eigen::RowVector2d::Zero())
         turn[vertex] = away;
       else
         cosine[vertex] = -turn[vertex].dot(away);
     }
   }
-  const auto curved =
-      std::count_if(cosine.begin(), cosine.end(), [&](double c) { return c > corner - 1e-4 && c < 1 - 1e-6; });
+  const auto curved = std::count_if(cosine.begin(), cosine.end(),
+                                    [&](double c) { return c > corner - 1e-4 && c < 1 - 1e-6; });
   if (curved < 6) return "";
   return fmt::format(
-      "mesh.file: the boundary turns a little at {} vertices, as the mesh of a curve does; what is proved is proved of "
-      "this polygon; with geometry = \"my.geo\" in [mesh] refinement returns to the curves of that file",
+      "mesh.file: the boundary turns a little at {} vertices, as the mesh of a curve does; what is "
+      "proved is proved of "
+      "this polygon; with geometry = \"my.geo\" in [mesh] refinement returns to the curves of that "
+      "file",
       curved);
 }
 
 std::string geometry_warning(const SceneFile& file) {
   const auto& [kind, cells, path, refinements, geometry] = file.mesh;
   const bool refined = refinements > 0 || file.method.accuracy;
-  if (!file.mesh.from_file() || !geometry.empty() || !refined || file.method.solver == "petsc") return "";
+  if (!file.mesh.from_file() || !geometry.empty() || !refined || file.method.solver == "petsc")
+    return "";
   for (const char* extension : {".geo", ".brep"}) {
     const std::filesystem::path beside = path.parent_path() / (path.stem().string() + extension);
     if (std::error_code ignored; !std::filesystem::exists(beside, ignored)) continue;
     // as the scene would name it; lexically_relative is not in the library of the page
     const std::string folder = std::filesystem::path(file.name).parent_path().string() + "/";
     const std::string whole = beside.string();
-    const std::string named = folder != "/" && whole.rfind(folder, 0) == 0 ? whole.substr(folder.size()) : whole;
+    const std::string named =
+        folder != "/" && whole.rfind(folder, 0) == 0 ? whole.substr(folder.size()) : whole;
     return fmt::format(
-        "mesh.geometry: {} lies beside the mesh file and was not read, since the scene does not name it; with geometry "
+        "mesh.geometry: {} lies beside the mesh file and was not read, since the scene does not "
+        "name it; with geometry "
         "= \"{}\" in [mesh] refinement returns to its curves",
         printable(beside.filename().string(), 200), printable(named, 1000));
   }
@@ -313,8 +337,10 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
   const auto& [gap, zero_at, upper_obstacle] = *file.scene.contact();
   const TriangleMesh& mesh = space.mesh();
   const Eigen::VectorXd values = prescribed(file, mesh);
-  std::vector<std::pair<double, double>> line;  // x and u_h at the contact unknowns and at the held ends of Gamma_C
-  for (const int i : space.contact_dofs()) line.emplace_back(space.dof_coordinates()(i, 0), solution.u(i));
+  std::vector<std::pair<double, double>>
+      line;  // x and u_h at the contact unknowns and at the held ends of Gamma_C
+  for (const int i : space.contact_dofs())
+    line.emplace_back(space.dof_coordinates()(i, 0), solution.u(i));
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
       if (mesh.edge_tag[e] == EdgeTag::contact && !std::isnan(values(v)))
@@ -322,7 +348,8 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
   std::sort(line.begin(), line.end());
 
   const double size = solution.u.lpNorm<Eigen::Infinity>();
-  const auto edges = static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::contact));
+  const auto edges =
+      static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::contact));
   const int places = std::max(32, 100'000 / std::max(edges, 1));
   double deepest = 0, where = 0, largest = size;  // of u and its bounds
   const char* missed = "";
@@ -336,7 +363,8 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
       const auto [x0, u0] = *(right - 1);
       const auto [x1, u1] = *right;
       const double u = x1 > x0 ? u0 + (u1 - u0) * (x - x0) / (x1 - x0) : u0;
-      for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
+      for (const auto& [name, bound, sign] :
+           {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
         if (*bound) {
           const double at = (*bound)(x), depth = sign * u - at;
           largest = std::max(largest, std::abs(at));
@@ -346,27 +374,38 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
   }
   if (deepest <= significance * size || deepest < 1e-12 * largest) return "";
   return fmt::format(
-      "contact.{}: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} deep into it at x = "
+      "contact.{}: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} deep "
+      "into it at x = "
       "{:.6g} (max |u| is {:.3g}): a finer mesh is needed there",
       missed, deepest, where, size);
 }
 
 std::string range_warning(const SceneFile& file, const Space& space, const Solution& solution) {
   const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
-  if (stiff == nullptr || traits_of(file.model).components > 1 || space.element().conforming()) return "";
-  const auto pull = [&](const Field& f, Region region) { return load_vector(space, f, region).lpNorm<1>(); };
-  if (stiff->load && pull(stiff->load, Region::layer) > 1e-3 * pull(file.scene.body().load, Region::body)) return "";
+  if (stiff == nullptr || traits_of(file.model).components > 1 || space.element().conforming())
+    return "";
+  const auto pull = [&](const Field& f, Region region) {
+    return load_vector(space, f, region).lpNorm<1>();
+  };
+  if (stiff->load &&
+      pull(stiff->load, Region::layer) > 1e-3 * pull(file.scene.body().load, Region::body))
+    return "";
   const TriangleMesh& mesh = space.mesh();
   Eigen::AlignedBox1d around, inside;  // u_h at the edges around the layer, and within it
   for (int e = 0; e < mesh.edge_count(); ++e)
-    if (const int t = mesh.edge_triangles(e, 0); mesh.region[t] == Region::layer || mesh.edge_tag[e] == EdgeTag::sigma)
-      (mesh.edge_tag[e] == EdgeTag::interior ? inside : around).extend(Eigen::Matrix<double, 1, 1>(solution.u(e)));
-  const double size = solution.u.lpNorm<Eigen::Infinity>();  // an empty box is infinitely far from everything
+    if (const int t = mesh.edge_triangles(e, 0);
+        mesh.region[t] == Region::layer || mesh.edge_tag[e] == EdgeTag::sigma)
+      (mesh.edge_tag[e] == EdgeTag::interior ? inside : around)
+          .extend(Eigen::Matrix<double, 1, 1>(solution.u(e)));
+  const double size =
+      solution.u.lpNorm<Eigen::Infinity>();  // an empty box is infinitely far from everything
   const double off = std::max(around.min()(0) - inside.min()(0), inside.max()(0) - around.max()(0));
   if (off <= significance * size) return "";
   return fmt::format(
-      "layer: within it u is {:.0f} % of max |u| beyond the values around it, where no exact solution is: the layer is "
-      "too soft along x for this element, or the mesh too coarse; remedy: a layer in columns (kind = \"layered\"), a "
+      "layer: within it u is {:.0f} % of max |u| beyond the values around it, where no exact "
+      "solution is: the layer is "
+      "too soft along x for this element, or the mesh too coarse; remedy: a layer in columns (kind "
+      "= \"layered\"), a "
       "finer mesh",
       100 * off / size);
 }

@@ -20,7 +20,8 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh);
 /// of the integral of its absolute value. There is a warning, too, if a quarter of the integral of
 /// |f| lies between the points of the quadrature. A spike between all of these points is not
 /// detected.
-std::string load_warning(const SceneFile& file, const Space& space, const VariationalInequality& problem);
+std::string load_warning(const SceneFile& file, const Space& space,
+                         const VariationalInequality& problem);
 
 /// Returns a warning if prescribed displacements jump, else an empty text. They may jump where two
 /// groups of edges with different values meet, or within a formula. No function of finite energy

@@ -31,7 +31,9 @@ class Section {
   Section(std::string file, std::string name, const toml::table& table, std::string kind)
       : file_(std::move(file)), name_(std::move(name)), kind_(std::move(kind)), table_(table) {}
 
-  [[noreturn]] void refuse(const std::string& key, const std::string& why) const { throw InputError(where(key) + why); }
+  [[noreturn]] void refuse(const std::string& key, const std::string& why) const {
+    throw InputError(where(key) + why);
+  }
   std::string where(const std::string& key) const {
     std::string full = name_;
     if (!full.empty() && !key.empty()) full += '.';
@@ -42,9 +44,11 @@ class Section {
   void only_its_keys(const std::string& model = {}) const {
     const Names accepted = key_names(kind_, model);
     for (const auto& [key, value] : table_)
-      if (const std::string name(key.str()); std::find(accepted.begin(), accepted.end(), name) == accepted.end())
-        refuse(name, fmt::format("unknown {}; accepted: {}", name_.empty() ? "key or section" : "key",
-                                 fmt::join(accepted, ", ")));
+      if (const std::string name(key.str());
+          std::find(accepted.begin(), accepted.end(), name) == accepted.end())
+        refuse(name,
+               fmt::format("unknown {}; accepted: {}", name_.empty() ? "key or section" : "key",
+                           fmt::join(accepted, ", ")));
   }
   bool has(const std::string& key) const { return table_.contains(key); }
   const toml::table& table() const { return table_; }
@@ -62,7 +66,8 @@ class Section {
   }
   double number(const std::string& key) const {
     const SceneKey& of = row(key);
-    if (double value = 0; !has(key) && of.otherwise && read_number(*of.otherwise, value)) return value;
+    if (double value = 0; !has(key) && of.otherwise && read_number(*of.otherwise, value))
+      return value;
     const double value = number(key, of.accepted);
     if (of.range && !of.range->holds(value))
       refuse(key, fmt::format("{} is out of range; accepted: {}", value, of.accepted));
@@ -71,7 +76,8 @@ class Section {
   /// A number of any size.
   double number(const std::string& key, const std::string& accepted) const {
     std::optional<double> value = table_[key].value_exact<double>();
-    if (const auto integer = table_[key].value_exact<std::int64_t>()) value = static_cast<double>(*integer);
+    if (const auto integer = table_[key].value_exact<std::int64_t>())
+      value = static_cast<double>(*integer);
     if (!value) refuse(key, what_stands_there(key) + "; accepted: a number, " + accepted);
     if (!std::isfinite(*value)) refuse(key, "is not finite; accepted: a number, " + accepted);
     return *value + 0.0;  // -0.0 becomes 0.0
@@ -80,17 +86,21 @@ class Section {
     const std::string accepted = fmt::format("; accepted: a whole number, 1 to {}", most);
     const auto value = table_[key].value_exact<std::int64_t>();
     if (!value) refuse(key, what_stands_there(key) + accepted);
-    if (*value < 1 || *value > most) refuse(key, fmt::format("{} is out of range{}", *value, accepted));
+    if (*value < 1 || *value > most)
+      refuse(key, fmt::format("{} is out of range{}", *value, accepted));
     return static_cast<int>(*value);
   }
-  int count(const std::string& key) const { return count(key, static_cast<int>(row(key).range->most)); }
+  int count(const std::string& key) const {
+    return count(key, static_cast<int>(row(key).range->most));
+  }
 
   /// [key]; empty where it is absent.
   Section section(const std::string& key) const {
     static const toml::table absent;
     if (!has(key)) return {file_, key, absent, key};
     const toml::table* table = table_[key].as_table();
-    if (table == nullptr) refuse(key, fmt::format("{}; accepted: a section [{}]", what_stands_there(key), key));
+    if (table == nullptr)
+      refuse(key, fmt::format("{}; accepted: a section [{}]", what_stands_there(key), key));
     return {file_, key, *table, key};
   }
   /// [[key]]: its tables, named key[0], key[1], ...
@@ -137,7 +147,8 @@ std::string read_text(const std::filesystem::path& path, const std::string& name
   std::string text(most + 1, '\0');
   in->read(text.data(), most + 1);
   if (in->bad()) throw InputError(name + ": file: cannot be read; accepted: " + accepted);
-  if (in->gcount() > most) throw InputError(name + ": file: is larger than 1 MB; accepted: " + accepted);
+  if (in->gcount() > most)
+    throw InputError(name + ": file: is larger than 1 MB; accepted: " + accepted);
   text.resize(static_cast<std::size_t>(in->gcount()));
   return text;
 }
@@ -156,7 +167,8 @@ toml::table parse(const std::string& text, const std::string& name) {
 
 /// A field or a profile: a text that does not parse, or a value that is not finite, is refused with
 /// the file and the key.
-auto named(const Section& section, const std::string& key, const std::vector<std::string>& variables) {
+auto named(const Section& section, const std::string& key,
+           const std::vector<std::string>& variables) {
   const std::string text = section.text(key);
   const auto naming = [where = section.where(key)](const auto& ask) {
     try {
@@ -169,8 +181,12 @@ auto named(const Section& section, const std::string& key, const std::vector<std
     return naming([&] { return f(at...); });
   };
 }
-Field field(const Section& section, const std::string& key) { return named(section, key, {"x", "y"}); }
-Profile profile(const Section& section, const std::string& key) { return named(section, key, {"x"}); }
+Field field(const Section& section, const std::string& key) {
+  return named(section, key, {"x", "y"});
+}
+Profile profile(const Section& section, const std::string& key) {
+  return named(section, key, {"x"});
+}
 /// The same where negative values are refused, and 0 unless `zero_too`.
 Field field_above(const Field& f, const std::string& where, bool zero_too) {
   return [=](double x, double y) {
@@ -206,7 +222,8 @@ Body read_body(const Section& root) {
 
 /// `stiffness = { left = 1, right = 10 }`: the surfaces of the file and their numbers, found by
 /// place.
-void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGroups& groups, Body& read) {
+void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGroups& groups,
+                 Body& read) {
   if (!body.table()["stiffness"].is_table()) return;
   std::vector<double> numbers;
   const Section section = body.section("stiffness");
@@ -214,21 +231,26 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGr
     const std::string& name = groups.bodies.emplace_back(group.str());
     numbers.push_back(section.number(name, "the stiffness of that group, above 0"));
     if (!(numbers.back() > 0))
-      body.refuse("stiffness", "is not above 0 on the group " + name + "; accepted: positive numbers");
+      body.refuse("stiffness",
+                  "is not above 0 on the group " + name + "; accepted: positive numbers");
   }
   struct Parts {
     std::vector<int> part;
     std::optional<PointValues> places;
   };
-  read.stiffness = [=, parts = std::make_shared<Parts>(), where = body.where("stiffness")](double x, double y) {
+  read.stiffness = [=, parts = std::make_shared<Parts>(), where = body.where("stiffness")](
+                       double x, double y) {
     if (!parts->places)  // asked for the first time
       parts->places.emplace(Space(read_msh(mesh.string(), groups, &parts->part), p1()));
     auto at = parts->places->locate({x, y}, 1e-9);
-    if (!at) at = parts->places->locate({x, y}, 0.5);  // beside the file's polygon, where refinement follows a curve
+    if (!at)
+      at = parts->places->locate(
+          {x, y}, 0.5);  // beside the file's polygon, where refinement follows a curve
     const int part = at ? parts->part[at->triangle] : -1;
     if (part < 0)
-      throw InputError(fmt::format("{}names no group of the surface at ({:g}, {:g}); accepted: all groups of the body",
-                                   where, x, y));
+      throw InputError(fmt::format(
+          "{}names no group of the surface at ({:g}, {:g}); accepted: all groups of the body",
+          where, x, y));
     return numbers[part];
   };
 }
@@ -260,20 +282,26 @@ ThicknessRange thickness_range(const std::string& model, const std::string& key)
 void check_layer_keys(const Section& section, const std::string& model, bool has_thickness) {
   for (const char* key : {"thickness", "stiffness", "load"})
     if (section.has(key) && model != "scaled")
-      section.refuse(key, fmt::format("does not go with model = \"{}\"; accepted: with \"scaled\" only", model));
+      section.refuse(
+          key,
+          fmt::format("does not go with model = \"{}\"; accepted: with \"scaled\" only", model));
   if (has_thickness && section.has("epsilon"))
-    section.refuse("epsilon", "stands beside thickness or stiffness; accepted: epsilon, or the other two");
+    section.refuse("epsilon",
+                   "stands beside thickness or stiffness; accepted: epsilon, or the other two");
 }
 
 /// s = stiffness * thickness of the scaled layer.
 double read_scaled_stiffness(const Section& section, double thickness) {
   const double stiffness = section.number("stiffness");
-  if (!(stiffness > 0)) section.refuse("stiffness", fmt::format("{}; accepted: above 0", stiffness));
+  if (!(stiffness > 0))
+    section.refuse("stiffness", fmt::format("{}; accepted: above 0", stiffness));
   const double s = stiffness * thickness;
   if (!(s > 0))
-    section.refuse("stiffness", fmt::format("{} times the thickness {} is 0 in double precision; accepted: a product "
-                                            "above 0",
-                                            stiffness, thickness));
+    section.refuse(
+        "stiffness",
+        fmt::format("{} times the thickness {} is 0 in double precision; accepted: a product "
+                    "above 0",
+                    stiffness, thickness));
   return s;
 }
 
@@ -286,8 +314,8 @@ Layer read_layer(const Section& section) {
   const ThicknessRange range = thickness_range(model, key);
   const double epsilon = section.number(key, range.accepted);
   if (!(epsilon >= range.least && epsilon <= range.most))
-    section.refuse(key, fmt::format("{} is out of range for model = \"{}\"; accepted: {}", epsilon, model,
-                                    has_thickness ? "0 < thickness <= 1" : range.accepted));
+    section.refuse(key, fmt::format("{} is out of range for model = \"{}\"; accepted: {}", epsilon,
+                                    model, has_thickness ? "0 < thickness <= 1" : range.accepted));
   if (model == "ventcel") return VentcelLayer{};
   if (model == "thin") return ThinLayer{epsilon};
   StiffLayer layer{epsilon};
@@ -296,7 +324,8 @@ Layer read_layer(const Section& section) {
   return layer;
 }
 
-std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections, ExtraGroups& groups) {
+std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections,
+                                          ExtraGroups& groups) {
   using Kind = BoundaryCondition::Kind;
   std::vector<BoundaryCondition> edges;
   for (const Section& section : sections) {
@@ -305,12 +334,14 @@ std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections, 
     if (edge.group == "clamped" || edge.group == "contact" || edge.group == "sigma" ||
         groups.curves.contains(edge.group))
       section.refuse("group",
-                     fmt::format("\"{}\" has its condition already; accepted: another group", printable(edge.group)));
+                     fmt::format("\"{}\" has its condition already; accepted: another group",
+                                 printable(edge.group)));
     if (section.has("free") && section.table()["free"].value_exact<bool>() != true)
       section.refuse("free", "is not true; accepted: " + section.row("free").accepted);
     int conditions = section.has("free") ? 1 : 0;
-    for (const auto& [key, kind] :
-         {std::pair{"displacement", Kind::displacement}, {"traction", Kind::traction}, {"spring", Kind::spring}})
+    for (const auto& [key, kind] : {std::pair{"displacement", Kind::displacement},
+                                    {"traction", Kind::traction},
+                                    {"spring", Kind::spring}})
       if (section.has(key)) {
         ++conditions;
         edge.kind = kind;
@@ -318,11 +349,14 @@ std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections, 
         if (kind == Kind::spring) edge.value = field_above(edge.value, section.where(key), true);
       }
     if (conditions != 1)
-      section.refuse("group", fmt::format("\"{}\" has {} conditions; accepted: exactly one of free, displacement, "
-                                          "traction, spring",
-                                          printable(edge.group), conditions));
+      section.refuse(
+          "group",
+          fmt::format("\"{}\" has {} conditions; accepted: exactly one of free, displacement, "
+                      "traction, spring",
+                      printable(edge.group), conditions));
     const auto k = static_cast<int>(edges.size());
-    groups.curves[edge.group] = edge.kind == Kind::displacement ? dirichlet_group(k) : natural_group(k);
+    groups.curves[edge.group] =
+        edge.kind == Kind::displacement ? dirichlet_group(k) : natural_group(k);
     edges.push_back(std::move(edge));
   }
   return edges;
@@ -346,11 +380,13 @@ std::vector<Eigen::Vector2d> read_points(const Section& section) {
 }
 
 /// The keys of all blocks that are pressed down, and their obstacle.
-void read_loading(const Section& section, const std::optional<UnilateralContact>& contact, BlockLoading& block) {
+void read_loading(const Section& section, const std::optional<UnilateralContact>& contact,
+                  BlockLoading& block) {
   block.prescribed_displacement = section.number("push");
   if (section.has("friction"))
-    block.friction = [bound = field_above([of = profile(section, "friction")](double x, double) { return of(x); },
-                                          section.where("friction"), true)](double x) { return bound(x, 0); };
+    block.friction = [bound = field_above(
+                          [of = profile(section, "friction")](double x, double) { return of(x); },
+                          section.where("friction"), true)](double x) { return bound(x, 0); };
   if (contact) block.gap = contact->gap;  // else refused by check_model
 }
 
@@ -377,7 +413,8 @@ CoatingModel read_coating(const Section& section, const std::optional<Unilateral
 }
 
 /// [model], with the sections that its kinds share.
-SceneModel read_model(const Section& section, const std::optional<UnilateralContact>& contact, const Layer& layer) {
+SceneModel read_model(const Section& section, const std::optional<UnilateralContact>& contact,
+                      const Layer& layer) {
   if (section.one_of("kind") == AntiPlaneModel::traits.name) {
     section.only_its_keys();
     return AntiPlaneModel{};
@@ -385,7 +422,9 @@ SceneModel read_model(const Section& section, const std::optional<UnilateralCont
   if (std::holds_alternative<NoLayer>(layer)) return read_rubber(section, contact);
   const auto* stiff = std::get_if<StiffLayer>(&layer);
   if (stiff == nullptr)
-    section.refuse("kind", "\"plane strain\" goes with the scaled layer, or none; accepted: model = \"scaled\"");
+    section.refuse(
+        "kind",
+        "\"plane strain\" goes with the scaled layer, or none; accepted: model = \"scaled\"");
   return read_coating(section, contact, *stiff);
 }
 
@@ -402,21 +441,25 @@ MeshRequest read_mesh(const Section& section, const std::filesystem::path& folde
   MeshRequest mesh;
   mesh.kind = section.one_of("kind");
   if (const char* other = mesh.from_file() ? "cells" : "file"; section.has(other))
-    section.refuse(other, fmt::format("does not go with kind = \"{}\"; accepted: {}", mesh.kind,
-                                      mesh.from_file() ? "file alone" : "with kind = \"file\" only"));
+    section.refuse(other,
+                   fmt::format("does not go with kind = \"{}\"; accepted: {}", mesh.kind,
+                               mesh.from_file() ? "file alone" : "with kind = \"file\" only"));
   if (mesh.from_file()) {
     mesh.file = path_of("file");
     if (section.has("geometry")) mesh.geometry = path_of("geometry");
   } else {
     if (section.has("geometry"))
       section.refuse("geometry", "goes with a mesh file only; accepted: with kind = \"file\"");
-    mesh.cells = section.count("cells", mesh.kind == "structured" ? most_structured : most_unstructured);
+    mesh.cells =
+        section.count("cells", mesh.kind == "structured" ? most_structured : most_unstructured);
   }
   if (!section.has("refinements")) return mesh;
   mesh.refinements = section.count("refinements");
   if (const int refined = mesh.cells << mesh.refinements; refined > most_structured)
-    section.refuse("refinements", fmt::format("{} refinements of {} cells per unit side make {}; accepted: up to {}",
-                                              mesh.refinements, mesh.cells, refined, most_structured));
+    section.refuse(
+        "refinements",
+        fmt::format("{} refinements of {} cells per unit side make {}; accepted: up to {}",
+                    mesh.refinements, mesh.cells, refined, most_structured));
   return mesh;
 }
 
@@ -424,16 +467,19 @@ MeshRequest read_mesh(const Section& section, const std::filesystem::path& folde
 void read_accuracy(const Section& section, MethodRequest& method) {
   for (const char* key : {"of", "most_unknowns"})
     if (section.has(key) && !section.has("accuracy"))
-      section.refuse(key, "goes with an accuracy only; accepted: a key accuracy beside it, or none of the two");
+      section.refuse(
+          key,
+          "goes with an accuracy only; accepted: a key accuracy beside it, or none of the two");
   if (!section.has("accuracy")) return;
   method.accuracy = section.number("accuracy");
   if (section.one_of("of") == "stress") method.of = Quantity::stress;
   method.most_unknowns = section.number("most_unknowns");
   if (method.element != "CR" && method.of == Quantity::stress)
-    section.refuse(
-        "of", "\"stress\" is proved of CR alone; accepted with element = \"" + method.element + "\": \"displacement\"");
+    section.refuse("of", "\"stress\" is proved of CR alone; accepted with element = \"" +
+                             method.element + "\": \"displacement\"");
   if (method.solver != "active-set")
-    section.refuse("solver", "\"" + method.solver + "\" does not go with accuracy; accepted: \"active-set\"");
+    section.refuse("solver",
+                   "\"" + method.solver + "\" does not go with accuracy; accepted: \"active-set\"");
 }
 
 MethodRequest read_method(const Section& section) {
@@ -450,40 +496,49 @@ MethodRequest read_method(const Section& section) {
 }
 
 /// What one section leaves out because of another.
-void check_together(const Section& root, const Scene& scene, const MeshRequest& mesh, const MethodRequest& method) {
-  const bool ventcel = std::holds_alternative<VentcelLayer>(scene.layer()), petsc = method.solver == "petsc";
+void check_together(const Section& root, const Scene& scene, const MeshRequest& mesh,
+                    const MethodRequest& method) {
+  const bool ventcel = std::holds_alternative<VentcelLayer>(scene.layer()),
+             petsc = method.solver == "petsc";
   if (mesh.kind == "layered" && !std::holds_alternative<StiffLayer>(scene.layer()))
     root.refuse("mesh.kind",
                 "\"layered\" is the mesh of the scaled layer, which this scene does not have; "
                 "accepted: a section [layer] with model = \"scaled\", or \"unstructured\"");
   if (method.accuracy && ventcel)
-    root.refuse("method.accuracy",
-                "does not go with model = \"ventcel\"; accepted: model = \"scaled\" with epsilon = 0, "
-                "which is the same problem");
+    root.refuse(
+        "method.accuracy",
+        "does not go with model = \"ventcel\"; accepted: model = \"scaled\" with epsilon = 0, "
+        "which is the same problem");
   if (method.element != "P1" && method.element != "CR" && (petsc || ventcel))
-    root.refuse("method.element", fmt::format("\"{}\" does not go with {}; accepted: \"P1\", \"CR\"", method.element,
-                                              petsc ? "solver = \"petsc\"" : "model = \"ventcel\""));
+    root.refuse("method.element",
+                fmt::format("\"{}\" does not go with {}; accepted: \"P1\", \"CR\"", method.element,
+                            petsc ? "solver = \"petsc\"" : "model = \"ventcel\""));
   if (petsc && !mesh.geometry.empty())
-    root.refuse("mesh.geometry", "does not go with solver = \"petsc\"; accepted: \"active-set\", \"uzawa\"");
+    root.refuse("mesh.geometry",
+                "does not go with solver = \"petsc\"; accepted: \"active-set\", \"uzawa\"");
   if (!petsc && !method.accuracy) return;
   const std::string beyond = !petsc           ? scene.beyond_the_certificate()
                              : root.has("at") ? "points"
                                               : scene.beyond_the_paper();
   if (!beyond.empty())
-    root.refuse(petsc ? "method.solver" : "method.accuracy",
-                fmt::format("does not go with {}; accepted: {}", beyond,
-                            petsc ? "\"active-set\", \"uzawa\"" : "a scene without it, or no accuracy"));
+    root.refuse(
+        petsc ? "method.solver" : "method.accuracy",
+        fmt::format("does not go with {}; accepted: {}", beyond,
+                    petsc ? "\"active-set\", \"uzawa\"" : "a scene without it, or no accuracy"));
 }
 
 void check_model(const Section&, const AntiPlaneModel&, const Scene&, const MethodRequest&) {}
 
 /// What plane strain has no use for yet.
 template <class Block>
-void check_model(const Section& root, const PressedModel<Block>&, const Scene& scene, const MethodRequest& method) {
+void check_model(const Section& root, const PressedModel<Block>&, const Scene& scene,
+                 const MethodRequest& method) {
   const auto refuse = [&](const std::string& what, const std::string& accepted) {
-    root.refuse("model.kind", "\"plane strain\" does not go with " + what + "; accepted: " + accepted);
+    root.refuse("model.kind",
+                "\"plane strain\" does not go with " + what + "; accepted: " + accepted);
   };
-  if (method.accuracy || method.solver != "active-set") refuse("accuracy or another solver", "solver = \"active-set\"");
+  if (method.accuracy || method.solver != "active-set")
+    refuse("accuracy or another solver", "solver = \"active-set\"");
   if (!scene.contact() || scene.contact()->upper_obstacle)
     refuse("a scene without contact, or with a ceiling", "a section [contact]");
   if (scene.body().stiffness)
@@ -491,19 +546,22 @@ void check_model(const Section& root, const PressedModel<Block>&, const Scene& s
   const auto* layer = std::get_if<StiffLayer>(&scene.layer());
   if (layer != nullptr && layer->load) refuse("a load on the layer", "none");
   for (const BoundaryCondition& edge : scene.edges())
-    if (edge.kind != BoundaryCondition::Kind::free) refuse("a condition on the group " + edge.group, "free edges");
+    if (edge.kind != BoundaryCondition::Kind::free)
+      refuse("a condition on the group " + edge.group, "free edges");
 }
 
 }  // namespace
 
 std::string beyond_the_paper(const SceneFile& file) {
-  return std::visit([&](const auto& model) { return model.beyond_the_paper(file.scene); }, file.model);
+  return std::visit([&](const auto& model) { return model.beyond_the_paper(file.scene); },
+                    file.model);
 }
 
 void require_paper_problem(const SceneFile& file, const std::string& who) {
   const std::string beyond = beyond_the_paper(file);
   if (!beyond.empty())
-    throw InputError(fmt::format("{}: {}: does not know {}; accepted: a scene without it", file.name, who, beyond));
+    throw InputError(fmt::format("{}: {}: does not know {}; accepted: a scene without it",
+                                 file.name, who, beyond));
 }
 
 SceneFile read_scene_file(const std::filesystem::path& path) {
@@ -549,14 +607,16 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
           return 0.0;
         });
       return made;
-    } catch (const ObstacleError& error) {  // what is left for the scene to refuse: what no clamped end can keep
+    } catch (const ObstacleError&
+                 error) {  // what is left for the scene to refuse: what no clamped end can keep
       const bool ceiling = error.which == ObstacleError::Obstacle::ceiling;
       root.refuse(ceiling ? "contact.ceiling" : "contact.gap", error.what());
     }
   }();
   check_together(root, scene, mesh, method);
   std::visit([&](const auto& kind) { check_model(root, kind, scene, method); }, model);
-  const auto points = root.has("at") ? read_points(root.section("at")) : std::vector<Eigen::Vector2d>();
+  const auto points =
+      root.has("at") ? read_points(root.section("at")) : std::vector<Eigen::Vector2d>();
   return {name, title, scene, mesh, method, words.str(), groups, points, model};
 }
 

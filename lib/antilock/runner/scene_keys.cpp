@@ -17,7 +17,9 @@ using Type = SceneKey::Type;
 const std::string in_x_and_y = "an expression in x and y in quotes, as \"10*sin(2*pi*x)\"";
 const std::string in_x = "an expression in x in quotes, as \"0.01\"";
 
-std::string path_of(const std::string& what) { return "the path of " + what + ", relative to the scene file"; }
+std::string path_of(const std::string& what) {
+  return "the path of " + what + ", relative to the scene file";
+}
 
 // clang-format off
 std::vector<SceneKey> file_keys() {
@@ -210,8 +212,10 @@ std::vector<SceneKey> method_keys() {
 /// The lines of a key in the help: its example, with the comment from column 32 on.
 std::string help_lines(const SceneKey& key) {
   const bool section = key.type == Type::section;
-  const std::string header = key.type == Type::sections ? "[[" + key.name + "]]" : "[" + key.name + "]";
-  std::string start = section || key.type == Type::sections ? header : key.name + " = " + key.example;
+  const std::string header =
+      key.type == Type::sections ? "[[" + key.name + "]]" : "[" + key.name + "]";
+  std::string start =
+      section || key.type == Type::sections ? header : key.name + " = " + key.example;
   if (key.comment.empty()) return "  " + start + "\n";
   std::string lines;
   std::istringstream comment(key.comment);
@@ -225,7 +229,8 @@ std::vector<const SceneKey*> keys_in_help(const std::string& section) {
   std::vector<const SceneKey*> keys;
   for (const SceneKey& key : scene_keys())
     if (key.section == section && key.line > 0) keys.push_back(&key);
-  std::sort(keys.begin(), keys.end(), [](const SceneKey* a, const SceneKey* b) { return a->line < b->line; });
+  std::sort(keys.begin(), keys.end(),
+            [](const SceneKey* a, const SceneKey* b) { return a->line < b->line; });
   return keys;
 }
 
@@ -258,7 +263,8 @@ const SceneKey& scene_key(const std::string& section, const std::string& name) {
 std::vector<std::string> key_names(const std::string& section, const std::string& model) {
   std::vector<std::string> names;
   for (const SceneKey& key : scene_keys()) {
-    const bool of_model = std::find(key.models.begin(), key.models.end(), model) != key.models.end();
+    const bool of_model =
+        std::find(key.models.begin(), key.models.end(), model) != key.models.end();
     if (key.section == section && (key.models.empty() || of_model)) names.push_back(key.name);
   }
   return names;

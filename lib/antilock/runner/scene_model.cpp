@@ -15,7 +15,8 @@
 namespace antilock {
 namespace {
 
-/// T values of the layer stress: the mean over the rows of B that stand for a triangle, 0 on the body.
+/// T values of the layer stress: the mean over the rows of B that stand for a triangle, 0 on the
+/// body.
 Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p) {
   const auto triangles = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
   if (p.size() == 0 || triangles == 0) return {};
@@ -28,7 +29,8 @@ Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p)
 
 }  // namespace
 
-Eigen::VectorXd AntiPlaneModel::dirichlet_values(const Scene& scene, const TriangleMesh& mesh) const {
+Eigen::VectorXd AntiPlaneModel::dirichlet_values(const Scene& scene,
+                                                 const TriangleMesh& mesh) const {
   return dirichlet_vertex_values(scene, mesh);
 }
 
@@ -38,7 +40,8 @@ VariationalInequality AntiPlaneModel::problem(const Scene& scene, const Space& s
 
 std::optional<double> AntiPlaneModel::penalty(const Space&) const { return {}; }
 
-Result AntiPlaneModel::solve(const SceneFile& file, const Space& space, const Solver& solver) const {
+Result AntiPlaneModel::solve(const SceneFile& file, const Space& space,
+                             const Solver& solver) const {
   return antilock::solve(file.scene, space, solver);
 }
 
@@ -46,13 +49,14 @@ std::optional<Eigen::VectorXd> AntiPlaneModel::friction_forces(const Result&) co
 
 void AntiPlaneModel::write_picture(const std::filesystem::path& path, const Result& result,
                                    const Eigen::VectorXd& pressure) const {
-  const Eigen::VectorXd p =
-      layer_stress(result.space.mesh(), result.solution.p.head(result.problem.parametric_row_count()));
+  const Eigen::VectorXd p = layer_stress(
+      result.space.mesh(), result.solution.p.head(result.problem.parametric_row_count()));
   write_vtu(path, result.space, result.solution.u, {p, pressure});
 }
 
 template <class Block>
-Eigen::VectorXd PressedModel<Block>::dirichlet_values(const Scene&, const TriangleMesh& mesh) const {
+Eigen::VectorXd PressedModel<Block>::dirichlet_values(const Scene&,
+                                                      const TriangleMesh& mesh) const {
   return Eigen::VectorXd::Constant(mesh.vertex_count(), -block.prescribed_displacement);
 }
 
@@ -71,14 +75,16 @@ std::optional<Eigen::VectorXd> PressedModel<Block>::friction_forces(const Result
   // behind the bounds of u_y stand those of u_x, in the same order, but where u_x is held
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contact.size()));
   for (std::size_t i = contact.size(); i < result.problem.bounds.unknowns.size(); ++i) {
-    const auto row = std::find(contact.begin(), contact.end(), result.problem.bounds.unknowns[i]) - contact.begin();
+    const auto row = std::find(contact.begin(), contact.end(), result.problem.bounds.unknowns[i]) -
+                     contact.begin();
     forces(row) = result.solution.lambda(static_cast<Eigen::Index>(i)) / length(row);
   }
   return forces;
 }
 
 template <class Block>
-Result PressedModel<Block>::solve(const SceneFile& file, const Space& space, const Solver& solver) const {
+Result PressedModel<Block>::solve(const SceneFile& file, const Space& space,
+                                  const Solver& solver) const {
   Result result{.space = space, .problem = problem(file.scene, space)};
   result.solution = solver(result.problem);
   add_locking_report(result, locking_report(file, space));
@@ -104,14 +110,16 @@ std::optional<LockingReport> PressedModel<PlaneStrain>::locking_report(const Sce
                                                                        const Space& space) const {
   const Element& element = space.element();
   const double h = mesh_width(file, space.mesh());
-  // P1 in rubber, pressed on a round punch: its force is 4 to 10 % too large at h^2 = epsilon / 10 (both meshes, 1/h =
-  // 8 and 32), 23 to 40 % at h^2 = epsilon, and it doubles at ten times that
+  // P1 in rubber, pressed on a round punch: its force is 4 to 10 % too large at h^2 = epsilon / 10
+  // (both meshes, 1/h = 8 and 32), 23 to 40 % at h^2 = epsilon, and it doubles at ten times that
   if (!element.conforming() || element.degree() != 1 || h * h <= 0.1 * block.epsilon) return {};
-  return LockingReport{fmt::format("P1 can hardly move without a change of volume: h^2 = {:.2g}, beside epsilon = "
-                                   "{:g} it locks",
-                                   h * h, block.epsilon),
-                       {},
-                       "P1 locks in this rubber: the contact force is too large; remedy: element = \"CR\" or \"P2\""};
+  return LockingReport{
+      fmt::format("P1 can hardly move without a change of volume: h^2 = {:.2g}, beside epsilon = "
+                  "{:g} it locks",
+                  h * h, block.epsilon),
+      {},
+      "P1 locks in this rubber: the contact force is too large; remedy: element = \"CR\" or "
+      "\"P2\""};
 }
 
 template <>
@@ -127,20 +135,26 @@ std::optional<double> PressedModel<Coating>::penalty(const Space& space) const {
 }
 
 template <>
-std::optional<LockingReport> PressedModel<Coating>::locking_report(const SceneFile&, const Space& space) const {
+std::optional<LockingReport> PressedModel<Coating>::locking_report(const SceneFile&,
+                                                                   const Space& space) const {
   const Element& element = space.element();
   if (!element.conforming())
-    return LockingReport{element.name() + " does not lock: its slopes across the coating are free", {}, ""};
+    return LockingReport{
+        element.name() + " does not lock: its slopes across the coating are free", {}, ""};
   const double k = bending_length(space.mesh()), t = block.thickness;
   LockingReport report{
-      fmt::format("{} resists bending in the coating as over the length {:.2g}", element.name(), k), {}, ""};
-  // degree 1: lost / kept = (5.84 k / t)^2 for one wave per unit length, which is a twentieth at k = 0.04 t; above
-  // degree 1 the mesh is in the way where it resists more than the coating's own thickness does
+      fmt::format("{} resists bending in the coating as over the length {:.2g}", element.name(), k),
+      {},
+      ""};
+  // degree 1: lost / kept = (5.84 k / t)^2 for one wave per unit length, which is a twentieth at
+  // k = 0.04 t; above degree 1 the mesh is in the way where it resists more than the coating's own
+  // thickness does
   if (k > (element.degree() == 1 ? 0.04 : 1) * t) {
     report.diagnosis += fmt::format(", beside a thickness of {:g} it locks", t);
-    report.warning = element.name() +
-                     " locks in this coating: the contact force is too large; remedy: element = \"CR\", or "
-                     "triangles in columns (kind = \"structured\" or \"layered\")";
+    report.warning =
+        element.name() +
+        " locks in this coating: the contact force is too large; remedy: element = \"CR\", or "
+        "triangles in columns (kind = \"structured\" or \"layered\")";
   } else {
     report.diagnosis += fmt::format(", which beside a thickness of {:g} does not matter", t);
   }
@@ -149,7 +163,8 @@ std::optional<LockingReport> PressedModel<Coating>::locking_report(const SceneFi
 
 template <>
 Eigen::VectorXd PressedModel<Coating>::pressure(const Result& result) const {
-  return antilock::pressure(block, {result.space, result.space}, result.solution.u, result.solution.p);
+  return antilock::pressure(block, {result.space, result.space}, result.solution.u,
+                            result.solution.p);
 }
 
 }  // namespace antilock

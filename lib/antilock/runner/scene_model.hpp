@@ -53,7 +53,8 @@ struct AntiPlaneModel {
   std::optional<Eigen::VectorXd> friction_forces(const Result& result) const;
   /// Writes solution.vtu. `pressure` has one value per contact unknown, and is empty without
   /// contact.
-  void write_picture(const std::filesystem::path& path, const Result& result, const Eigen::VectorXd& pressure) const;
+  void write_picture(const std::filesystem::path& path, const Result& result,
+                     const Eigen::VectorXd& pressure) const;
   /// Returns the subcommand of `render` that draws the solution.
   const char* picture(bool mesh_from_file) const { return mesh_from_file ? "plan" : "surface"; }
 };
@@ -76,7 +77,8 @@ struct PressedModel {
   std::optional<Eigen::VectorXd> friction_forces(const Result& result) const;
   /// Returns T values, one per triangle: the pressure in the block.
   Eigen::VectorXd pressure(const Result& result) const;
-  void write_picture(const std::filesystem::path& path, const Result& result, const Eigen::VectorXd& pressure) const;
+  void write_picture(const std::filesystem::path& path, const Result& result,
+                     const Eigen::VectorXd& pressure) const;
   const char* picture(bool) const { return "deformed"; }
 };
 
@@ -86,7 +88,8 @@ template <>
 std::optional<double> PressedModel<PlaneStrain>::penalty(const Space& space) const;
 /// Reports that P1 locks where h^2 is not small beside epsilon.
 template <>
-std::optional<LockingReport> PressedModel<PlaneStrain>::locking_report(const SceneFile& file, const Space& space) const;
+std::optional<LockingReport> PressedModel<PlaneStrain>::locking_report(const SceneFile& file,
+                                                                       const Space& space) const;
 /// Returns -lambda div u.
 template <>
 Eigen::VectorXd PressedModel<PlaneStrain>::pressure(const Result& result) const;
@@ -98,7 +101,8 @@ std::optional<double> PressedModel<Coating>::penalty(const Space& space) const;
 /// Reports locking for a conforming element on a layer without columns if the bending length k of
 /// the mesh is not small compared with the thickness (analysis/locking.hpp).
 template <>
-std::optional<LockingReport> PressedModel<Coating>::locking_report(const SceneFile& file, const Space& space) const;
+std::optional<LockingReport> PressedModel<Coating>::locking_report(const SceneFile& file,
+                                                                   const Space& space) const;
 /// Returns minus the stress in y.
 template <>
 Eigen::VectorXd PressedModel<Coating>::pressure(const Result& result) const;

@@ -27,38 +27,46 @@ Json or_null(const std::optional<double>& value) { return value ? Json(*value) :
 
 /// JSON has no infinity: a library would write null and say nothing.
 double finite(const char* what, double value) {
-  if (!std::isfinite(value)) throw NotConverged(std::string(what) + " of the answer is not finite", value, 0);
+  if (!std::isfinite(value))
+    throw NotConverged(std::string(what) + " of the answer is not finite", value, 0);
   return value;
 }
 
-const char* asked_of(const MethodRequest& method) { return method.of == Quantity::stress ? "stress" : "displacement"; }
+const char* asked_of(const MethodRequest& method) {
+  return method.of == Quantity::stress ? "stress" : "displacement";
+}
 
 /// The question in full: with it and the mesh file anyone can ask it again.
 Json question(const SceneFile& file) {
   const Json words = Json::parse(file.json);
   const MethodRequest& method = file.method;
-  Json asked = {{"title", file.title},
-                {"load", words["load"]["f"]},
-                {"layer", nullptr},
-                {"gap", nullptr},
-                {"mesh", words["mesh"]},
-                {"method", {{"element", method.element}, {"solver", method.solver}, {"tolerance", method.tolerance}}},
-                {"version", ANTILOCK_VERSION}};
+  Json asked = {
+      {"title", file.title},
+      {"load", words["load"]["f"]},
+      {"layer", nullptr},
+      {"gap", nullptr},
+      {"mesh", words["mesh"]},
+      {"method",
+       {{"element", method.element}, {"solver", method.solver}, {"tolerance", method.tolerance}}},
+      {"version", ANTILOCK_VERSION}};
   const auto add = [&](const Json& from, const char* key, const std::string& name) {
     if (from.contains(key)) asked[name] = from[key];
   };
   if (words.contains("layer")) {
     const Json& layer = words["layer"];
-    asked["layer"] = {{"epsilon", or_null(file.scene.epsilon())}, {"model", layer.value("model", "scaled")}};
-    for (const std::string key : {"thickness", "stiffness", "load"}) add(layer, key.c_str(), "layer " + key);
+    asked["layer"] = {{"epsilon", or_null(file.scene.epsilon())},
+                      {"model", layer.value("model", "scaled")}};
+    for (const std::string key : {"thickness", "stiffness", "load"})
+      add(layer, key.c_str(), "layer " + key);
   }
   if (words.contains("contact")) {
     asked["gap"] = words["contact"].value("gap", "0");
     add(words["contact"], "ceiling", "ceiling");
   }
   if (method.accuracy)
-    asked["method"].update(
-        {{"accuracy", *method.accuracy}, {"of", asked_of(method)}, {"most_unknowns", method.most_unknowns}});
+    asked["method"].update({{"accuracy", *method.accuracy},
+                            {"of", asked_of(method)},
+                            {"most_unknowns", method.most_unknowns}});
   for (const char* section : {"body", "edge", "at", "model"}) add(words, section, section);
   return asked;
 }
@@ -69,16 +77,20 @@ Json certificate(const MethodRequest& method, const CertifiedSolution& certified
   Json levels = Json::array();
   const std::string& geometry = certified.result.space.mesh().geometry.file;
   const std::string corners =
-      geometry.empty() ? "" : ", its corners on the curves of " + std::filesystem::path(geometry).filename().string();
+      geometry.empty()
+          ? ""
+          : ", its corners on the curves of " + std::filesystem::path(geometry).filename().string();
   for (const RefinementLevel& level : certified.history)
-    levels.push_back({{"unknowns", level.unknowns}, {"bound", level.bound}, {"seconds", level.seconds}});
+    levels.push_back(
+        {{"unknowns", level.unknowns}, {"bound", level.bound}, {"seconds", level.seconds}});
   return {{"asked", *method.accuracy},
           {"of", asked_of(method)},
           {"relative", finite("the certified error", proof.relative(method.of))},
           {"bound", finite("the certified error", proof.bound(method.of))},
           {"energy_lower", proof.energy_lower},
           {"energy_upper", proof.energy_upper},
-          {"proved_of", "the polygon of the last mesh" + corners + ", with load, traction and gap as sampled"},
+          {"proved_of",
+           "the polygon of the last mesh" + corners + ", with load, traction and gap as sampled"},
           {"levels", levels}};
 }
 
@@ -113,8 +125,9 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
       const Eigen::Vector2d& x = file.at[i];
       const auto place = values.locate(x, 1e-9);
       if (!place)
-        throw Error(fmt::format("{}: at.points: ({:g}, {:g}) is outside the mesh; accepted: points of body and layer",
-                                file.name, x(0), x(1)));
+        throw Error(fmt::format(
+            "{}: at.points: ({:g}, {:g}) is outside the mesh; accepted: points of body and layer",
+            file.name, x(0), x(1)));
       s.at.row(i).head<2>() = x;
       for (Eigen::Index k = 0; k < components; ++k)
         s.at(i, 2 + k) = values.value(solution.u.segment(k * size, size), *place);
@@ -128,7 +141,8 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
   return s;
 }
 
-std::string summary_text(const SceneFile& file, const SceneSummary& summary, const RunSeconds& seconds, double files,
+std::string summary_text(const SceneFile& file, const SceneSummary& summary,
+                         const RunSeconds& seconds, double files,
                          const CertifiedSolution* certified) {
   Json s;
   s["element"] = file.method.element;
@@ -142,8 +156,10 @@ std::string summary_text(const SceneFile& file, const SceneSummary& summary, con
   s["u_min"] = finite("the minimum", summary.u_min);
   if (file.scene.contact()) {
     const ContactZone& zone = summary.zone;
-    s["contact"] = {
-        {"points", zone.points}, {"active", zone.active}, {"from", or_null(zone.from)}, {"to", or_null(zone.to)}};
+    s["contact"] = {{"points", zone.points},
+                    {"active", zone.active},
+                    {"from", or_null(zone.from)},
+                    {"to", or_null(zone.to)}};
     s["kkt"] = {{"min_gap", summary.kkt.min_gap},
                 {"min_pressure", summary.kkt.min_pressure},
                 {"complementarity", summary.kkt.complementarity},
@@ -169,20 +185,23 @@ std::string summary_text(const SceneFile& file, const SceneSummary& summary, con
   for (Eigen::Index i = 0; i < summary.at.rows(); ++i) {
     const auto& row = summary.at.row(i);
     Json here = {{"x", row(0)}, {"y", row(1)}};
-    for (Eigen::Index k = 2; k < row.size(); ++k) here[row.size() == 3 ? "u" : k == 2 ? "u_x" : "u_y"] = row(k);
+    for (Eigen::Index k = 2; k < row.size(); ++k)
+      here[row.size() == 3 ? "u" : k == 2 ? "u_x" : "u_y"] = row(k);
     s["at"].push_back(here);
   }
   if (certified != nullptr) s["certificate"] = certificate(file.method, *certified);
   s["warning"] = summary.warning;
   s["scene"] = question(file);
   const auto& [mesh, assemble, factor, solve] = seconds;
-  s["seconds"] = {{"mesh", mesh},   {"assemble", assemble}, {"factor", factor},
-                  {"solve", solve}, {"files", files},       {"total", mesh + assemble + factor + solve + files}};
+  s["seconds"] = {{"mesh", mesh},     {"assemble", assemble},
+                  {"factor", factor}, {"solve", solve},
+                  {"files", files},   {"total", mesh + assemble + factor + solve + files}};
   return s.dump(2) + "\n";
 }
 
-void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
-                   const RunSeconds& seconds, double files, const CertifiedSolution* certified) {
+void write_summary(const std::filesystem::path& path, const SceneFile& file,
+                   const SceneSummary& summary, const RunSeconds& seconds, double files,
+                   const CertifiedSolution* certified) {
   const std::string text = summary_text(file, summary, seconds, files, certified);
   write_file(path, [&](std::ostream& out) { out << text; });
 }
@@ -194,22 +213,27 @@ std::vector<std::string> result_names(const std::filesystem::path& folder, int r
                                  "mesh.msh",     "solution.vtu", "solution.pvtu"};
   std::error_code absent;
   const bool earlier = ranks > 0 || std::filesystem::exists(folder / "solution.pvtu", absent);
-  for (int r = 0; r < ranks || (earlier && std::filesystem::exists(folder / piece_name(r), absent)); ++r)
+  for (int r = 0; r < ranks || (earlier && std::filesystem::exists(folder / piece_name(r), absent));
+       ++r)
     names.push_back(piece_name(r));
   return names;
 }
 
-void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
-                       int ranks) {
+void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene,
+                       const SceneFile& file, int ranks) {
   for (const std::string& name : result_names(folder, ranks)) {
-    std::error_code unknown;  // a folder that cannot be looked into is refused when it is written to
+    std::error_code
+        unknown;  // a folder that cannot be looked into is refused when it is written to
     if (std::filesystem::is_directory(folder / name, unknown))
-      throw Error(fmt::format("{}: --out: {} is a folder, where the result {} is to stand; accepted: another folder",
-                              file.name, printable((folder / name).string(), 1000), name));
+      throw Error(fmt::format(
+          "{}: --out: {} is a folder, where the result {} is to stand; accepted: another folder",
+          file.name, printable((folder / name).string(), 1000), name));
     for (const std::filesystem::path& input : {scene, file.mesh.file, file.mesh.geometry})
-      if (std::error_code absent; !input.empty() && std::filesystem::equivalent(folder / name, input, absent))
-        throw Error(fmt::format("{}: --out: the result {} would replace {}; accepted: another folder", file.name, name,
-                                printable(input.string(), 1000)));
+      if (std::error_code absent;
+          !input.empty() && std::filesystem::equivalent(folder / name, input, absent))
+        throw Error(
+            fmt::format("{}: --out: the result {} would replace {}; accepted: another folder",
+                        file.name, name, printable(input.string(), 1000)));
   }
 }
 
@@ -218,43 +242,53 @@ ResultFiles result_files(const std::string& words) {
   std::istringstream in(words);
   for (std::string word; std::getline(in, word, ',');) {
     if (word != "summary" && word != "csv" && word != "mesh" && word != "vtu")
-      throw Error(fmt::format("--files: {:?} is none of the files; accepted: summary, csv, mesh, vtu, with commas",
-                              printable(word)));
+      throw Error(fmt::format(
+          "--files: {:?} is none of the files; accepted: summary, csv, mesh, vtu, with commas",
+          printable(word)));
     asked.insert(word);
   }
-  if (asked.empty()) throw Error("--files: names no file; accepted: summary, csv, mesh, vtu, with commas");
+  if (asked.empty())
+    throw Error("--files: names no file; accepted: summary, csv, mesh, vtu, with commas");
   return asked;
 }
 
 std::filesystem::path default_results_folder(const std::filesystem::path& scene) {
   const std::filesystem::path name = scene.stem();
   if (name.empty() || name == "." || name == "..")
-    throw Error(
-        fmt::format("{}: --out: the name of the scene file without its extension, \"{}\", names no folder of "
-                    "its own; accepted: --out FOLDER, or another name",
-                    printable(scene.string(), 1000), name.string()));
+    throw Error(fmt::format(
+        "{}: --out: the name of the scene file without its extension, \"{}\", names no folder of "
+        "its own; accepted: --out FOLDER, or another name",
+        printable(scene.string(), 1000), name.string()));
   return std::filesystem::path("results") / name;
 }
 
-void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Result& result,
-                         const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked) {
+void write_scene_results(const std::filesystem::path& folder, const SceneFile& file,
+                         const Result& result, const SceneSummary& summary,
+                         const CertifiedSolution* certified, const ResultFiles& asked) {
   const Stopwatch watch;
-  const bool contact = file.scene.contact().has_value(), csv = asked.contains("csv"), vtu = asked.contains("vtu");
+  const bool contact = file.scene.contact().has_value(), csv = asked.contains("csv"),
+             vtu = asked.contains("vtu");
   const auto write = [&](const std::filesystem::path& draft) {
     if (csv) write_solution_csv(draft / "solution.csv", result.space, result.solution.u);
     Eigen::VectorXd pressure;  // empty without contact
     if (contact) {
       Eigen::MatrixX3d table = contact_table(normal_contact(result));
-      if (!file.scene.contact()->upper_obstacle)                    // which presses downwards: a pressure below 0
-        table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
+      if (!file.scene.contact()->upper_obstacle)  // which presses downwards: a pressure below 0
+        table.rightCols<2>() =
+            table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
       pressure = table.col(2);
-      const auto friction = std::visit([&](const auto& model) { return model.friction_forces(result); }, file.model);
+      const auto friction =
+          std::visit([&](const auto& model) { return model.friction_forces(result); }, file.model);
       if (csv) write_contact(draft / "contact.csv", table, friction);
     }
-    if (asked.contains("mesh")) write_msh(draft / "mesh.msh", result.space.mesh(), file.scene.edges());
+    if (asked.contains("mesh"))
+      write_msh(draft / "mesh.msh", result.space.mesh(), file.scene.edges());
     if (vtu)
-      std::visit([&](const auto& model) { model.write_picture(draft / "solution.vtu", result, pressure); }, file.model);
-    write_summary(draft / "summary.json", file, summary, result.seconds, watch.seconds(), certified);
+      std::visit(
+          [&](const auto& model) { model.write_picture(draft / "solution.vtu", result, pressure); },
+          file.model);
+    write_summary(draft / "summary.json", file, summary, result.seconds, watch.seconds(),
+                  certified);
   };
   write_folder(folder, write, result_names(folder));
 }

@@ -20,8 +20,8 @@ std::string piece_name(int rank);
 std::vector<std::string> result_names(const std::filesystem::path& folder, int ranks = 0);
 /// Throws Error where one of these files is the scene, its mesh file or its geometry, or where one
 /// of these names is a folder. Changes no file.
-void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
-                       int ranks = 0);
+void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene,
+                       const SceneFile& file, int ranks = 0);
 
 /// The numbers of summary.json, for a run on one process or on several ranks with PETSc.
 struct SceneSummary {
@@ -49,11 +49,13 @@ SceneSummary summary_of(const SceneFile& file, const Result& result);
 /// alone writes them. `certified` is given for a scene with an accuracy, and becomes `certificate`.
 /// `files` are the seconds spent on the other files. Throws NotConverged where a number is not
 /// finite.
-std::string summary_text(const SceneFile& file, const SceneSummary& summary, const RunSeconds& seconds, double files,
+std::string summary_text(const SceneFile& file, const SceneSummary& summary,
+                         const RunSeconds& seconds, double files,
                          const CertifiedSolution* certified = nullptr);
 /// Writes this text to a file.
-void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
-                   const RunSeconds& seconds, double files, const CertifiedSolution* certified = nullptr);
+void write_summary(const std::filesystem::path& path, const SceneFile& file,
+                   const SceneSummary& summary, const RunSeconds& seconds, double files,
+                   const CertifiedSolution* certified = nullptr);
 
 /// The requested files: "csv", "mesh" and "vtu". "summary" has no effect, because summary.json is
 /// always written.
@@ -72,7 +74,8 @@ std::filesystem::path default_results_folder(const std::filesystem::path& scene)
 /// are written as 0, unless the scene has a ceiling. The `kkt` of the summary contains them
 /// unchanged. Throws Error where the folder cannot be written, and NotConverged where a number is
 /// not finite.
-void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Result& result,
-                         const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked);
+void write_scene_results(const std::filesystem::path& folder, const SceneFile& file,
+                         const Result& result, const SceneSummary& summary,
+                         const CertifiedSolution* certified, const ResultFiles& asked);
 
 }  // namespace antilock

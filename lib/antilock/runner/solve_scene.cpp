@@ -15,8 +15,8 @@ namespace antilock {
 namespace {
 
 /// The solution by the solver and to the tolerance of [method].
-Solution solve_as_asked(const SceneFile& file, const Space& space, const VariationalInequality& problem,
-                        const ProgressHook& follow) {
+Solution solve_as_asked(const SceneFile& file, const Space& space,
+                        const VariationalInequality& problem, const ProgressHook& follow) {
   const MethodRequest& method = file.method;
   const double tolerance = std::max(method.tolerance, MethodRequest::finest_tolerance);
   Solution solution;
@@ -29,21 +29,25 @@ Solution solve_as_asked(const SceneFile& file, const Space& space, const Variati
     ActiveSetOptions options;
     options.corrections.tolerance = tolerance;
     options.corrections.progress = follow;
-    options.penalty = std::visit([&](const auto& model) { return model.penalty(space); }, file.model);
+    options.penalty =
+        std::visit([&](const auto& model) { return model.penalty(space); }, file.model);
     solution = active_set(problem, options);
   }
   if (method.tolerance < tolerance)
-    throw NotConverged(fmt::format("{}: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
-                                   "double precision goes no further",
-                                   method.solver, tolerance, solution.counters.corrections, method.tolerance),
-                       tolerance, solution.counters.corrections);
+    throw NotConverged(
+        fmt::format(
+            "{}: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
+            "double precision goes no further",
+            method.solver, tolerance, solution.counters.corrections, method.tolerance),
+        tolerance, solution.counters.corrections);
   return solution;
 }
 
 }  // namespace
 
 VariationalInequality problem_of(const SceneFile& file, const Space& space) {
-  return std::visit([&](const auto& model) { return model.problem(file.scene, space); }, file.model);
+  return std::visit([&](const auto& model) { return model.problem(file.scene, space); },
+                    file.model);
 }
 
 CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
@@ -73,18 +77,23 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
   };
   if (method.accuracy) {
     begin(fmt::format("solve to a relative error of {:g}", *method.accuracy));
-    const AccuracyGoal asked{*method.accuracy,         method.of,   method.most_unknowns, {}, method.tolerance,
-                             &element(method.element), follow.solve};
-    CertifiedSolution found = solved([&] { return solve_to(file.scene, mesh, asked, follow.level); });
+    const AccuracyGoal asked{
+        *method.accuracy,         method.of,   method.most_unknowns, {}, method.tolerance,
+        &element(method.element), follow.solve};
+    CertifiedSolution found =
+        solved([&] { return solve_to(file.scene, mesh, asked, follow.level); });
     found.result.seconds = seconds;
     spent(found.result);
-    found.result.warning = joined(found.result.warning, joined(polygon_warning(file, mesh), geometry_warning(file)));
+    found.result.warning =
+        joined(found.result.warning, joined(polygon_warning(file, mesh), geometry_warning(file)));
     return found;
   }
   begin(fmt::format("assembly: {} on {} triangles", method.element, mesh.triangle_count()));
   const Space space(std::move(mesh), element(method.element));
   if (space.free_count() == 0)
-    throw InputError(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
+    throw InputError(
+        file.name +
+        ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
   std::string data;  // to distrust in what was given
   const auto by_method = [&](const VariationalInequality& problem) {
     data = joined(load_warning(file, space, problem), displacement_warning(file, space.mesh()));
@@ -92,11 +101,14 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
     begin(fmt::format("solve: {}, {} unknowns", method.solver, problem.free_count()));
     return solve_as_asked(file, space, problem, follow.solve);
   };
-  Result result = solved(
-      [&] { return std::visit([&](const auto& model) { return model.solve(file, space, by_method); }, file.model); });
+  Result result = solved([&] {
+    return std::visit([&](const auto& model) { return model.solve(file, space, by_method); },
+                      file.model);
+  });
   const Solution& solution = result.solution;
-  result.warning = joined(joined(result.warning, data),
-                          joined(gap_warning(file, space, solution), range_warning(file, space, solution)));
+  result.warning =
+      joined(joined(result.warning, data),
+             joined(gap_warning(file, space, solution), range_warning(file, space, solution)));
   result.warning = joined(result.warning, geometry_warning(file));
   result.seconds = seconds;
   spent(result);
@@ -110,7 +122,8 @@ Result normal_contact(const Result& result) {
   const auto all = static_cast<Eigen::Index>(count);
   Result normal{.space = result.space};
   const std::vector<int>& bounded = problem.bounds.unknowns;
-  normal.problem.bounds = Bounds::lower_on({bounded.begin(), bounded.begin() + all}, problem.bounds.lower.head(all));
+  normal.problem.bounds =
+      Bounds::lower_on({bounded.begin(), bounded.begin() + all}, problem.bounds.lower.head(all));
   normal.solution.u = solution.u;
   normal.solution.lambda = solution.lambda.head(all);
   normal.solution.active.assign(solution.active.begin(), solution.active.begin() + all);

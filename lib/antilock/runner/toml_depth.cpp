@@ -31,11 +31,13 @@ std::size_t string_length(std::string_view text) {
 void check_toml_depth(std::string_view text, const std::string& name) {
   constexpr int most = 64;
   int open = 0, dots = 0;
-  const auto check = [&](int depth, std::size_t at, std::string_view what, std::string_view accepted) {
+  const auto check = [&](int depth, std::size_t at, std::string_view what,
+                         std::string_view accepted) {
     if (depth > most)
-      throw InputError(fmt::format("{}: syntax: line {}: {}; accepted: up to {} {}", name,
-                                   1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'),
-                                   what, most, accepted));
+      throw InputError(fmt::format(
+          "{}: syntax: line {}: {}; accepted: up to {} {}", name,
+          1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'), what,
+          most, accepted));
   };
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];

@@ -11,15 +11,21 @@ namespace {
 
 using Obstacle = ObstacleError::Obstacle;
 
-void check_epsilon(const std::string& model, double epsilon, double smallest, const std::string& why) {
+void check_epsilon(const std::string& model, double epsilon, double smallest,
+                   const std::string& why) {
   if (!(epsilon >= smallest && epsilon <= 1))
-    throw Error(fmt::format("{} layer: epsilon = {} is out of range; accepted {}", model, epsilon, why));
+    throw Error(
+        fmt::format("{} layer: epsilon = {} is out of range; accepted {}", model, epsilon, why));
 }
 
 }  // namespace
 
-Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, std::vector<BoundaryCondition> edges)
-    : body_(std::move(body)), layer_(std::move(layer)), contact_(std::move(contact)), edges_(std::move(edges)) {
+Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact,
+             std::vector<BoundaryCondition> edges)
+    : body_(std::move(body)),
+      layer_(std::move(layer)),
+      contact_(std::move(contact)),
+      edges_(std::move(edges)) {
   if (!body_.load) throw Error("body: no load given; accepted: a function f(x, y)");
   for (const BoundaryCondition& edge : edges_)
     if (edge.kind != BoundaryCondition::Kind::free && !edge.value)
@@ -27,9 +33,11 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, s
   const auto* stiff = std::get_if<StiffLayer>(&layer_);
   if (stiff != nullptr && !(stiff->s > 0 && std::isfinite(stiff->s)))
     throw Error(fmt::format("scaled layer: s = {}; accepted: s > 0", stiff->s));
-  if (stiff != nullptr) check_epsilon("scaled", stiff->epsilon, 0, "0 < epsilon <= 1, or exactly 0 (the rigid limit)");
+  if (stiff != nullptr)
+    check_epsilon("scaled", stiff->epsilon, 0, "0 < epsilon <= 1, or exactly 0 (the rigid limit)");
   if (const auto* thin = std::get_if<ThinLayer>(&layer_))
-    check_epsilon("thin", thin->epsilon, 1e-3, "1e-3 <= epsilon <= 1 (below, use the scaled layer)");
+    check_epsilon("thin", thin->epsilon, 1e-3,
+                  "1e-3 <= epsilon <= 1 (below, use the scaled layer)");
   if (!contact_) return;
   if (!contact_->gap) throw Error("contact: no gap given; accepted: a function gap(x)");
   for (const double x : contact_->zero_at)
@@ -37,28 +45,30 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, s
          {std::pair(Obstacle::gap, &contact_->gap), {Obstacle::ceiling, &contact_->upper_obstacle}})
       // sin(pi) in double precision is 1.2e-16
       if (*bound && !((*bound)(x) >= -1e-12 * std::max(1.0, std::abs((*bound)(0.5)))))
-        throw ObstacleError(
-            which, fmt::format("contact: {0}({1}) = {2}, but u = 0 is prescribed there; accepted: {0} >= 0 at x = {3}",
-                               which == Obstacle::gap ? "gap" : "ceiling", x, (*bound)(x),
-                               fmt::join(contact_->zero_at, " and x = ")));
+        throw ObstacleError(which,
+                            fmt::format("contact: {0}({1}) = {2}, but u = 0 is prescribed there; "
+                                        "accepted: {0} >= 0 at x = {3}",
+                                        which == Obstacle::gap ? "gap" : "ceiling", x, (*bound)(x),
+                                        fmt::join(contact_->zero_at, " and x = ")));
 }
 
 void check_upper_obstacle(const UnilateralContact& contact, double x) {
   if (!contact.upper_obstacle) return;
   const double lower = -contact.gap(x), upper = contact.upper_obstacle(x);
   if (upper < lower - 1e-12 * std::max(1.0, std::abs(lower)))  // the round-off of two formulas
-    throw ObstacleError(
-        Obstacle::ceiling,
-        fmt::format("contact: ceiling({0:.6g}) = {1:.6g} is below the obstacle, -gap({0:.6g}) = {2:.6g}; accepted: "
-                    "ceiling >= -gap",
-                    x, upper, lower));
+    throw ObstacleError(Obstacle::ceiling,
+                        fmt::format("contact: ceiling({0:.6g}) = {1:.6g} is below the obstacle, "
+                                    "-gap({0:.6g}) = {2:.6g}; accepted: "
+                                    "ceiling >= -gap",
+                                    x, upper, lower));
 }
 
 std::string Scene::beyond_the_paper() const {
   if (!edges_.empty()) return "edges in named groups";
   if (body_.stiffness) return "a stiffness of the body";
   const auto* stiff = std::get_if<StiffLayer>(&layer_);
-  return stiff != nullptr && stiff->s != 1 ? "a layer of its own stiffness" : beyond_the_certificate();
+  return stiff != nullptr && stiff->s != 1 ? "a layer of its own stiffness"
+                                           : beyond_the_certificate();
 }
 
 std::string Scene::beyond_the_certificate() const {

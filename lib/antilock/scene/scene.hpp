@@ -86,7 +86,8 @@ void check_upper_obstacle(const UnilateralContact& contact, double x);
 /// throws Error, with the reason, where the combination is meaningless.
 class Scene {
  public:
-  explicit Scene(Body body, Layer layer = NoLayer{}, std::optional<UnilateralContact> contact = std::nullopt,
+  explicit Scene(Body body, Layer layer = NoLayer{},
+                 std::optional<UnilateralContact> contact = std::nullopt,
                  std::vector<BoundaryCondition> edges = {});
 
   const Body& body() const { return body_; }

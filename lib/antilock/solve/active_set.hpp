@@ -96,12 +96,13 @@ Solution active_set(const VariationalInequality& problem, PenalisedCholesky& fac
 /// current iterate as a multiplier estimate. The factor determines whether the system is a
 /// SchurComplementContact or a SparseContact. `before` is the result of the last correction, and is
 /// empty in the first one. `u_scale` is the largest |u|.
-using ContactSolver =
-    std::function<ContactResult(ContactSystem&, const ShiftedBounds&, const ContactResult& before, double u_scale)>;
+using ContactSolver = std::function<ContactResult(ContactSystem&, const ShiftedBounds&,
+                                                  const ContactResult& before, double u_scale)>;
 
 /// Runs the outer loop with any solver of the inner problem. `name` is the solver's name in
 /// messages. Throws as active_set does.
-Solution iterated_penalty(const VariationalInequality& problem, PenalisedCholesky& factor, const ContactSolver& contact,
-                          const CorrectionOptions& options, const std::string& name);
+Solution iterated_penalty(const VariationalInequality& problem, PenalisedCholesky& factor,
+                          const ContactSolver& contact, const CorrectionOptions& options,
+                          const std::string& name);
 
 }  // namespace antilock

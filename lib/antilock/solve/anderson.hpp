@@ -29,16 +29,19 @@ class Anderson {
   /// Adds a plain step to the history. From a start x the step g leads to `iterate` = x + g.
   /// `affine_image` is a second vector that depends affinely on x. (In active_set x is p, and this
   /// vector is u.)
-  void push(const DoubleDoubleVector& iterate, const Eigen::VectorXd& g, const DoubleDoubleVector& affine_image) {
+  void push(const DoubleDoubleVector& iterate, const Eigen::VectorXd& g,
+            const DoubleDoubleVector& affine_image) {
     past_.push_front({iterate, affine_image, g});
     if (past_.size() > depth) past_.pop_back();
-    double most = past_.size() < 2 ? defaults::max_contraction : 1 - defaults::max_contraction, gain = 0;
+    double most = past_.size() < 2 ? defaults::max_contraction : 1 - defaults::max_contraction,
+           gain = 0;
     for (std::size_t i = 1; i < past_.size(); ++i) {
       const Eigen::VectorXd after = iterate - past_[i].iterate;
       const double apart = (after - g + past_[i].g).norm();
       if (!(apart > 0)) continue;
       most = std::max(most, after.norm() / apart);
-      gain = std::max(gain, (affine_image - past_[i].affine_image).lpNorm<Eigen::Infinity>() / apart);
+      gain =
+          std::max(gain, (affine_image - past_[i].affine_image).lpNorm<Eigen::Infinity>() / apart);
     }
     contraction_ = std::min(most, defaults::max_contraction);
     // otherwise gain_ keeps its last value, which another contact set hardly changes and a smaller
@@ -71,7 +74,8 @@ class Anderson {
     // matrix are sums of products, so that a pivot below their round-off has no meaning
     Eigen::MatrixXd difference(g.size(), others);
     for (Eigen::Index i = 0; i < others; ++i) difference.col(i) = g - past_[i + 1].g;
-    const Eigen::VectorXd scale = difference.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
+    const Eigen::VectorXd scale =
+        difference.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
     for (Eigen::Index i = 0; i < others; ++i) difference.col(i) /= scale(i);
     const Eigen::MatrixXd normal = difference.transpose() * difference;
     const Eigen::VectorXd gamma =

@@ -25,11 +25,19 @@ namespace antilock {
 ///
 /// In this order v grows and lambda falls. An active bound (at_lower, at_upper) prescribes v, and
 /// lambda is the unknown. Every other status prescribes lambda, and v is the unknown.
-enum class BoundStatus : signed char { slip_below = -2, at_lower = -1, inactive = 0, at_upper = 1, slip_above = 2 };
+enum class BoundStatus : signed char {
+  slip_below = -2,
+  at_lower = -1,
+  inactive = 0,
+  at_upper = 1,
+  slip_above = 2
+};
 using BoundStatuses = std::vector<BoundStatus>;
 
 /// Returns whether the bound prescribes v.
-inline bool is_active(BoundStatus status) { return status == BoundStatus::at_lower || status == BoundStatus::at_upper; }
+inline bool is_active(BoundStatus status) {
+  return status == BoundStatus::at_lower || status == BoundStatus::at_upper;
+}
 
 /// C bounds with their set-valued laws, for the increments that a correction solves for: the limits
 /// are those of the increment of v, and `multiplier_estimate` shifts the forces. A lower bound, two
@@ -43,16 +51,19 @@ struct ShiftedBounds : BoundLimits {
     double low, high;
   };
 
-  /// Makes the bounds of a first correction, whose multiplier estimate is 0. Throws Error unless all
-  /// vectors have C entries.
-  ShiftedBounds(BoundLimits limits) : ShiftedBounds(limits, Eigen::VectorXd::Zero(limits.count())) {}
+  /// Makes the bounds of a first correction, whose multiplier estimate is 0. Throws Error unless
+  /// all vectors have C entries.
+  ShiftedBounds(BoundLimits limits)
+      : ShiftedBounds(limits, Eigen::VectorXd::Zero(limits.count())) {}
   ShiftedBounds(BoundLimits limits, Eigen::VectorXd multipliers)
       : BoundLimits(std::move(limits)), multiplier_estimate(std::move(multipliers)) {
-    if (upper.size() != count() || force_limit.size() != count() || multiplier_estimate.size() != count())
-      throw Error(fmt::format(
-          "contact: lower, upper, force_limit and multiplier_estimate have {}, {}, {} and {} entries; accepted: one "
-          "per bound in each",
-          count(), upper.size(), force_limit.size(), multiplier_estimate.size()));
+    if (upper.size() != count() || force_limit.size() != count() ||
+        multiplier_estimate.size() != count())
+      throw Error(
+          fmt::format("contact: lower, upper, force_limit and multiplier_estimate have {}, {}, {} "
+                      "and {} entries; accepted: one "
+                      "per bound in each",
+                      count(), upper.size(), force_limit.size(), multiplier_estimate.size()));
   }
 
   /// Returns the quantity that `status` prescribes: v where the bound is active, else lambda -
@@ -95,8 +106,9 @@ struct ShiftedBounds : BoundLimits {
     // v grows and lambda falls: a range without an end on that side belongs to the last status
     const auto [low, high] = admissible_range(i, status);
     if (!std::isfinite(is_active(status) == up ? low : high))
-      throw Error(fmt::format("contact: the status {} of bound {} is the last one; there is none beyond",
-                              static_cast<int>(status), i));
+      throw Error(
+          fmt::format("contact: the status {} of bound {} is the last one; there is none beyond",
+                      static_cast<int>(status), i));
     if (is_equation(i))
       return status != BoundStatus::at_lower ? BoundStatus::at_lower
              : up                            ? BoundStatus::slip_above
@@ -108,15 +120,17 @@ struct ShiftedBounds : BoundLimits {
   /// is active unless it slips. Throws Error where `requested` has not one entry per bound.
   BoundStatuses nearest_valid(BoundStatuses requested) const {
     if (static_cast<int>(requested.size()) != count())
-      throw Error(
-          fmt::format("contact: the start has {} statuses; accepted one per bound, {}", requested.size(), count()));
+      throw Error(fmt::format("contact: the start has {} statuses; accepted one per bound, {}",
+                              requested.size(), count()));
     for (int i = 0; i < count(); ++i) {
       BoundStatus& status = requested[i];
       const bool low = std::isfinite(lower(i)), high = std::isfinite(upper(i));
       const bool is_soft = std::isfinite(force_limit(i));
-      if (is_soft && ((status == BoundStatus::slip_below && low) || (status == BoundStatus::slip_above && high)))
+      if (is_soft && ((status == BoundStatus::slip_below && low) ||
+                      (status == BoundStatus::slip_above && high)))
         continue;
-      if (is_equation(i) || (is_active(status) && low && !(status == BoundStatus::at_upper && high)))
+      if (is_equation(i) ||
+          (is_active(status) && low && !(status == BoundStatus::at_upper && high)))
         status = BoundStatus::at_lower;
       else
         status = is_active(status) && high ? BoundStatus::at_upper : BoundStatus::inactive;

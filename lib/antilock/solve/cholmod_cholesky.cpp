@@ -21,8 +21,8 @@ extern "C" {
 namespace antilock {
 namespace {
 
-/// Columns of a supernodal factor L from `first` on, as one dense block. Its own columns come first among its rows;
-/// above the diagonal it holds nothing of meaning.
+/// Columns of a supernodal factor L from `first` on, as one dense block. Its own columns come first
+/// among its rows; above the diagonal it holds nothing of meaning.
 struct Supernode {
   int first;
   const int* row;  ///< of L, one per row of the block
@@ -33,13 +33,16 @@ Supernode supernode(const cholmod_factor& l, std::size_t s) {
   const int* const start = static_cast<const int*>(l.super) + s;
   const int* const rows = static_cast<const int*>(l.pi) + s;
   const double* const values = static_cast<const double*>(l.x) + static_cast<const int*>(l.px)[s];
-  return {start[0], static_cast<const int*>(l.s) + rows[0], {values, rows[1] - rows[0], start[1] - start[0]}};
+  return {start[0],
+          static_cast<const int*>(l.s) + rows[0],
+          {values, rows[1] - rows[0], start[1] - start[0]}};
 }
 
-/// The two sweeps are those of CHOLMOD without its copies and without its calls of the BLAS, two per supernode and most
-/// of them for a few numbers. Measured on the membrane with its layer (P1), a pair of them against CHOLMOD's: 0.34
-/// against 0.47 ms at 1/h = 64, 1.9 against 2.7 at 128, 18 against 22 at 256, where both wait for the memory; with
-/// Eigen's triangular solve of each block they take 1.5 times as long.
+/// The two sweeps are those of CHOLMOD without its copies and without its calls of the BLAS, two
+/// per supernode and most of them for a few numbers. Measured on the membrane with its layer (P1),
+/// a pair of them against CHOLMOD's: 0.34 against 0.47 ms at 1/h = 64, 1.9 against 2.7 at 128, 18
+/// against 22 at 256, where both wait for the memory; with Eigen's triangular solve of each block
+/// they take 1.5 times as long.
 class CholmodCholesky final : public SparseCholesky {
  public:
   CholmodCholesky() {
@@ -47,10 +50,11 @@ class CholmodCholesky final : public SparseCholesky {
     common_.print = 0;
     common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.final_ll = 1;
-    // Two supernodes are merged into one of up to 16 columns always, of up to 32, up to 64 and of more where the merged
-    // block has at most 90, 30 and 10 % zeros. CHOLMOD's own are 4, 16, 48 columns and 80, 10, 5 %: the BLAS is called
-    // twice per supernode, most of which are small. At 1/h = 512 (P1) 28,509 supernodes for 68,896, the factor in 0.6
-    // of the seconds and with 1.29 of the entries, which the sweeps read. Twice these columns: 15,174, 0.4 and 1.83.
+    // Two supernodes are merged into one of up to 16 columns always, of up to 32, up to 64 and of
+    // more where the merged block has at most 90, 30 and 10 % zeros. CHOLMOD's own are 4, 16, 48
+    // columns and 80, 10, 5 %: the BLAS is called twice per supernode, most of which are small. At
+    // 1/h = 512 (P1) 28,509 supernodes for 68,896, the factor in 0.6 of the seconds and with 1.29
+    // of the entries, which the sweeps read. Twice these columns: 15,174, 0.4 and 1.83.
     std::copy_n(std::array<std::size_t, 3>{16, 32, 64}.data(), 3, common_.nrelax);
     std::copy_n(std::array{0.9, 0.3, 0.1}.data(), 3, common_.zrelax);
   }
@@ -69,15 +73,16 @@ class CholmodCholesky final : public SparseCholesky {
   }
 
   std::optional<int> factorise(const SparseMatrix& k) override {
-    if (l_->xtype == CHOLMOD_PATTERN)  // the entries of L and the largest update of a supernode are not allocated yet
+    if (l_->xtype == CHOLMOD_PATTERN)  // the entries of L and the largest update of a supernode are
+                                       // not allocated yet
       require_memory((l_->xsize + l_->maxcsize) * sizeof(double), "solve: the sparse factor");
     const BlasCalls blas;
     cholmod_sparse whole = viewAsCholmod(k.selfadjointView<Eigen::Upper>());
-    // CHOLMOD 3 shares the assembly of every supernode among four OpenMP threads, on any number of cores, and the four
-    // wait for each other at every loop, which is over in microseconds; a BLAS with threads of its own keeps them. On
-    // one thread, the least wall seconds of a factor on two cores (P1, the membrane with its layer): 5.5 against 6.7 ms
-    // at 1/h = 64, 31 against 39 at 128; where other programs want the cores as well, the four cost up to ten times the
-    // factor.
+    // CHOLMOD 3 shares the assembly of every supernode among four OpenMP threads, on any number of
+    // cores, and the four wait for each other at every loop, which is over in microseconds; a BLAS
+    // with threads of its own keeps them. On one thread, the least wall seconds of a factor on two
+    // cores (P1, the membrane with its layer): 5.5 against 6.7 ms at 1/h = 64, 31 against 39 at
+    // 128; where other programs want the cores as well, the four cost up to ten times the factor.
     const bool has_openmp = omp_get_max_active_levels && omp_set_max_active_levels;
     const int levels = has_openmp ? omp_get_max_active_levels() : 0;
     if (has_openmp) omp_set_max_active_levels(0);
@@ -129,7 +134,8 @@ class CholmodCholesky final : public SparseCholesky {
       for (Eigen::Index i = 0; i < height; ++i) work(i) = y(node.row[i]);
       for (Eigen::Index j = columns - 1; j >= 0; --j) {
         const Eigen::Index below = height - j - 1;
-        work(j) = (work(j) - node.block.col(j).tail(below).dot(work.segment(j + 1, below))) / node.block(j, j);
+        work(j) = (work(j) - node.block.col(j).tail(below).dot(work.segment(j + 1, below))) /
+                  node.block(j, j);
       }
       y.segment(node.first, columns) = work.head(columns);
     }
@@ -153,9 +159,12 @@ class CholmodCholesky final : public SparseCholesky {
   void analyse_with_trailing_rows(cholmod_sparse& whole, int trailing_count) {
     const int size = static_cast<int>(whole.ncol), interior = size - trailing_count;
     std::vector<int> order(size), group(size, 0);
-    std::fill(group.begin() + interior, group.end(), interior > 0 ? 1 : 0);  // CAMD wants groups below `size`
-    require(cholmod_camd(&whole, nullptr, 0, group.data(), order.data(), &common_) != 0, "ordering");
-    std::iota(order.begin() + interior, order.end(), interior);  // among themselves in the order of the reports
+    std::fill(group.begin() + interior, group.end(),
+              interior > 0 ? 1 : 0);  // CAMD wants groups below `size`
+    require(cholmod_camd(&whole, nullptr, 0, group.data(), order.data(), &common_) != 0,
+            "ordering");
+    std::iota(order.begin() + interior, order.end(),
+              interior);  // among themselves in the order of the reports
     common_.nmethods = 1;
     common_.method[0].ordering = CHOLMOD_GIVEN;
     for (const int postorder : {1, 0}) {
@@ -164,14 +173,16 @@ class CholmodCholesky final : public SparseCholesky {
       l_ = cholmod_analyze_p(&whole, order.data(), nullptr, 0, &common_);
       require(l_ != nullptr, "analysis");
       const int* perm = static_cast<const int*>(l_->Perm);
-      if (std::equal(perm + interior, perm + size, order.begin() + interior)) return;  // else a postorder moved them
+      if (std::equal(perm + interior, perm + size, order.begin() + interior))
+        return;  // else a postorder moved them
     }
     throw Error("solve: the contact unknowns did not come last in the sparse factor");
   }
 
   static void require(bool holds, const std::string& step) {
     if (holds) return;
-    throw NotConverged("solve: the " + step + " of the sparse factor failed: out of memory; accepted: fewer unknowns",
+    throw NotConverged("solve: the " + step +
+                           " of the sparse factor failed: out of memory; accepted: fewer unknowns",
                        1, 0);
   }
 

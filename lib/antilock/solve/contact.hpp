@@ -29,7 +29,8 @@ class ContactSystem {
   /// Solves K v = q + lambda with v_i = prescribed_i where bound i is active and lambda_i =
   /// prescribed_i elsewhere. `active` and `prescribed` have C entries. Throws Error where K is not
   /// positive definite.
-  virtual FixedStatusSolution solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) = 0;
+  virtual FixedStatusSolution solve(const std::vector<char>& active,
+                                    const Eigen::VectorXd& prescribed) = 0;
   virtual double energy_norm_squared(const Eigen::VectorXd& d) const = 0;  ///< d' K d
   /// Returns C statuses to start from: those of the solution of a smaller problem of the same kind,
   /// transferred to all bounds (nested iteration). Throws as solve_contact does.

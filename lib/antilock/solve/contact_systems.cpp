@@ -15,7 +15,8 @@ namespace {
 
 Cholesky factor_of(const Eigen::MatrixXd& s) {
   Cholesky factor(s);
-  if (!factor.positive_definite()) throw Error("contact: the Schur complement is not positive definite");
+  if (!factor.positive_definite())
+    throw Error("contact: the Schur complement is not positive definite");
   return factor;
 }
 
@@ -25,16 +26,18 @@ std::vector<int> from_zero_to(Eigen::Index count) {
   return all;
 }
 
-/// Unknown -> group, by the entries of a symmetric K alone. Neighbours are strongly connected where |k_ij| > 0.08
-/// sqrt(k_ii k_jj). An unknown none of whose neighbours has a group makes one with all of them; the others join that
-/// of a neighbour. P. Vanek, J. Mandel, M. Brezina, Computing 56 (1996): 0.08 is theirs.
+/// Unknown -> group, by the entries of a symmetric K alone. Neighbours are strongly connected
+/// where |k_ij| > 0.08 sqrt(k_ii k_jj). An unknown none of whose neighbours has a group makes one
+/// with all of them; the others join that of a neighbour. P. Vanek, J. Mandel, M. Brezina,
+/// Computing 56 (1996): 0.08 is theirs.
 std::vector<int> groups_of(const SparseMatrix& k) {
   const int size = static_cast<int>(k.cols());
   const Eigen::VectorXd root = k.diagonal().cwiseSqrt();
   const auto neighbours = [&](int i) {  // and i itself
     std::vector<int> near;
     for (SparseMatrix::InnerIterator it(k, i); it; ++it)
-      if (std::abs(it.value()) > 0.08 * root(i) * root(it.row())) near.push_back(static_cast<int>(it.row()));
+      if (std::abs(it.value()) > 0.08 * root(i) * root(it.row()))
+        near.push_back(static_cast<int>(it.row()));
     return near;
   };
   std::vector<int> group(size, -1);
@@ -54,18 +57,22 @@ std::vector<int> groups_of(const SparseMatrix& k) {
   return group;
 }
 
-/// Whether a constant costs no energy but near what is fixed, as aggregation supposes: rows of K sum to 0, to
-/// round-off. Beside what is fixed they do not; of a mesh that is a part of all rows that falls like h. In a beam or a
-/// plate the rows of the rotations do not, half of all or more. A quarter tells the two apart.
+/// Whether a constant costs no energy but near what is fixed, as aggregation supposes: rows of K
+/// sum to 0, to round-off. Beside what is fixed they do not; of a mesh that is a part of all rows
+/// that falls like h. In a beam or a plate the rows of the rotations do not, half of all or more. A
+/// quarter tells the two apart.
 bool constants_are_free(const ConstrainedCholesky& k) {
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(k.upper_triangle().cols());
-  return 4 * (k.times(one).array().abs() > defaults::round_off * k.absolute_times(one).array()).count() < one.size();
+  return 4 * (k.times(one).array().abs() > defaults::round_off * k.absolute_times(one).array())
+                 .count() <
+         one.size();
 }
 
 /// The bounds of the sums over groups of unknowns: the means of the finite limits, and the sums of
 /// the forces. `members` (unknowns x groups) is 1 at the group of each unknown, and `bounded` has
 /// the unknown of each bound.
-ShiftedBounds aggregated(const ShiftedBounds& bounds, const RowMatrix& members, const std::vector<int>& bounded) {
+ShiftedBounds aggregated(const ShiftedBounds& bounds, const RowMatrix& members,
+                         const std::vector<int>& bounded) {
   const auto sum = [&](const Eigen::VectorXd& of_bounds) {
     Eigen::VectorXd of_unknowns = Eigen::VectorXd::Zero(members.rows());
     of_unknowns(bounded) = of_bounds;
@@ -78,7 +85,8 @@ ShiftedBounds aggregated(const ShiftedBounds& bounds, const RowMatrix& members, 
     return Eigen::VectorXd((count > 0).select(total / count, none));
   };
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  return {BoundLimits(mean(bounds.lower, -infinity), mean(bounds.upper, infinity), sum(bounds.force_limit)),
+  return {BoundLimits(mean(bounds.lower, -infinity), mean(bounds.upper, infinity),
+                      sum(bounds.force_limit)),
           sum(bounds.multiplier_estimate)};
 }
 
@@ -94,9 +102,11 @@ SparseMatrix smoothed_aggregation(const SparseMatrix& k, const RowMatrix& member
 SchurComplementContact::SchurComplementContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q)
     : ContactSystem(from_zero_to(q.size())), s_(s), q_(q) {}
 
-FixedStatusSolution SchurComplementContact::solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) {
+FixedStatusSolution SchurComplementContact::solve(const std::vector<char>& active,
+                                                  const Eigen::VectorXd& prescribed) {
   std::vector<int> free, fixed;
-  for (int i = 0; i < static_cast<int>(active.size()); ++i) (active[i] != 0 ? fixed : free).push_back(i);
+  for (int i = 0; i < static_cast<int>(active.size()); ++i)
+    (active[i] != 0 ? fixed : free).push_back(i);
   FixedStatusSolution now{prescribed, prescribed, {}};
   if (!free.empty()) {
     Eigen::VectorXd rhs = q_(free) + prescribed(free);
@@ -110,7 +120,8 @@ FixedStatusSolution SchurComplementContact::solve(const std::vector<char>& activ
   return now;
 }
 
-BoundStatuses SchurComplementContact::nested_start(const ShiftedBounds& bounds, int max_iterations) {
+BoundStatuses SchurComplementContact::nested_start(const ShiftedBounds& bounds,
+                                                   int max_iterations) {
   const int fine = bounds.count(), coarse = fine / 2;
   if (fine <= 1) return BoundStatuses(fine, BoundStatus::inactive);
   const auto bounded = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
@@ -123,7 +134,8 @@ BoundStatuses SchurComplementContact::nested_start(const ShiftedBounds& bounds, 
   return coarse_start(bounds, smaller, max_iterations);
 }
 
-FixedStatusSolution SparseContact::solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) {
+FixedStatusSolution SparseContact::solve(const std::vector<char>& active,
+                                         const Eigen::VectorXd& prescribed) {
   std::vector<char> constrained(q_.size(), 0);
   Eigen::VectorXd q = q_, x = Eigen::VectorXd::Zero(q_.size());
   for (std::size_t i = 0; i < active.size(); ++i) {
@@ -133,7 +145,8 @@ FixedStatusSolution SparseContact::solve(const std::vector<char>& active, const 
   k_.constrain(constrained);
   x += k_.solve(q - k_.times(x));
   const Eigen::VectorXd force = k_.times(x) - q_;
-  const Eigen::VectorXd noise = defaults::round_off * (k_.absolute_times(x.cwiseAbs()) + q_.cwiseAbs());
+  const Eigen::VectorXd noise =
+      defaults::round_off * (k_.absolute_times(x.cwiseAbs()) + q_.cwiseAbs());
   FixedStatusSolution now{std::move(x), prescribed, noise(bounded())};
   for (std::size_t i = 0; i < active.size(); ++i)
     if (active[i] != 0) now.lambda(static_cast<Eigen::Index>(i)) = force(bounded()[i]);
@@ -144,7 +157,8 @@ BoundStatuses SparseContact::nested_start(const ShiftedBounds& bounds, int max_i
   BoundStatuses start(bounded().size(), BoundStatus::inactive);
   if (bounded().size() <= 1) return start;
   const SparseMatrix whole = k_.upper_triangle().selfadjointView<Eigen::Upper>();
-  const std::vector<int> group = constants_are_free(k_) ? groups_of(whole) : from_zero_to(q_.size());
+  const std::vector<int> group =
+      constants_are_free(k_) ? groups_of(whole) : from_zero_to(q_.size());
   const int groups = 1 + *std::max_element(group.begin(), group.end());
   if (2 * groups > q_.size()) {  // half of all at most: no start costs more than the finest problem
     std::vector<int> second;
@@ -159,14 +173,18 @@ BoundStatuses SparseContact::nested_start(const ShiftedBounds& bounds, int max_i
   const Eigen::VectorXd q = p.transpose() * q_;
   try {
     ConstrainedCholesky k;
-    if (k.factorise(SparseMatrix(p.transpose() * SparseMatrix(whole * p)).triangularView<Eigen::Upper>())) return start;
+    if (k.factorise(
+            SparseMatrix(p.transpose() * SparseMatrix(whole * p)).triangularView<Eigen::Upper>()))
+      return start;
     SparseContact coarse(k, q, from_zero_to(groups));
     const ShiftedBounds of_groups = aggregated(bounds, members, bounded());
-    const BoundStatuses status = solve_contact(coarse, of_groups, std::nullopt, max_iterations).status;
+    const BoundStatuses status =
+        solve_contact(coarse, of_groups, std::nullopt, max_iterations).status;
     const RowMatrix rows = p;
     for (std::size_t i = 0; i < bounded().size(); ++i) {
       start[i] = status[group[bounded()[i]]];
-      for (RowMatrix::InnerIterator w(rows, bounded()[i]); w; ++w) start[i] = common_status(start[i], status[w.col()]);
+      for (RowMatrix::InnerIterator w(rows, bounded()[i]); w; ++w)
+        start[i] = common_status(start[i], status[w.col()]);
     }
   } catch (const Error&) {  // a start, no more: the fine problem says what is wrong
   }

@@ -11,7 +11,8 @@ class SchurComplementContact final : public ContactSystem {
   /// s is C x C, and q has C entries. Both must outlive this object.
   SchurComplementContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q);
 
-  FixedStatusSolution solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) override;
+  FixedStatusSolution solve(const std::vector<char>& active,
+                            const Eigen::VectorXd& prescribed) override;
   double energy_norm_squared(const Eigen::VectorXd& d) const override { return d.dot(s_ * d); }
   /// Solves the problem in which only every second unknown is bounded, recursively down to one
   /// bound, and transfers the statuses (coarse_start). With it the number of iterations hardly
@@ -38,7 +39,8 @@ class SparseContact final : public ContactSystem {
   SparseContact(ConstrainedCholesky& k, const Eigen::VectorXd& q, std::vector<int> bounded)
       : ContactSystem(std::move(bounded)), k_(k), q_(q) {}
 
-  FixedStatusSolution solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) override;
+  FixedStatusSolution solve(const std::vector<char>& active,
+                            const Eigen::VectorXd& prescribed) override;
   double energy_norm_squared(const Eigen::VectorXd& d) const override { return d.dot(k_.times(d)); }
   /// Coarsens K by smoothed aggregation (P. Vanek, J. Mandel, M. Brezina, Computing 56, 1996),
   /// solves the contact problem of the coarse matrix P' K P by the same method, and gives each

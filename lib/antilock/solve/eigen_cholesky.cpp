@@ -13,8 +13,8 @@ namespace {
 
 using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
 
-/// Where Eigen's factorisation stops at a pivot, its columns from there on hold what they held before: here zeros, so that
-/// the first of them is found.
+/// Where Eigen's factorisation stops at a pivot, its columns from there on hold what they held
+/// before: here zeros, so that the first of them is found.
 struct Factor : Eigen::SimplicialLLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> {
   void clear() { std::fill_n(m_matrix.valuePtr(), m_matrix.data().size(), 0.0); }
 };
@@ -23,7 +23,8 @@ class EigenCholesky final : public SparseCholesky {
  public:
   void analyse(const SparseMatrix& k, int trailing_count) override {
     const Eigen::Index first = k.cols() - trailing_count;
-    const SparseMatrix inside = SparseMatrix(k.topLeftCorner(first, first)).selfadjointView<Eigen::Upper>();
+    const SparseMatrix inside =
+        SparseMatrix(k.topLeftCorner(first, first)).selfadjointView<Eigen::Upper>();
     Permutation by_degree;
     if (first > 0) Eigen::AMDOrdering<int>()(inside, by_degree);
     Eigen::VectorXi place(k.cols());
@@ -44,7 +45,8 @@ class EigenCholesky final : public SparseCholesky {
   }
 
   double smallest_pivot() const override {
-    return l().cols() > 0 ? l().diagonal().cwiseAbs2().minCoeff() : std::numeric_limits<double>::infinity();
+    return l().cols() > 0 ? l().diagonal().cwiseAbs2().minCoeff()
+                          : std::numeric_limits<double>::infinity();
   }
   Eigen::VectorXd forward(const Eigen::VectorXd& r) const override {
     return factor_.matrixL().solve(Eigen::VectorXd(order_ * r));
@@ -56,7 +58,8 @@ class EigenCholesky final : public SparseCholesky {
     const Eigen::Index size = l().cols() - first;
     Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
     for (Eigen::Index j = first; j < l().cols(); ++j)
-      for (SparseMatrix::InnerIterator i(l(), j); i; ++i) block(i.row() - first, j - first) = i.value();
+      for (SparseMatrix::InnerIterator i(l(), j); i; ++i)
+        block(i.row() - first, j - first) = i.value();
     return block;
   }
 

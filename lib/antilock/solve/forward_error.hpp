@@ -39,9 +39,9 @@ struct ForwardError {
 /// min(sum_k |B_jk u_k|, d sum_k |B_jk|), up to the round-off of 106 bits. Here d is the largest
 /// finite bound or prescribed value. Otherwise a large u would hide a constraint that cannot be
 /// satisfied.
-ForwardError forward_error(const VariationalInequality& problem, const DoubleDoubleVector& u, double next_correction,
-                           const Eigen::VectorXd& constraint_residual, double contraction, double largest_u,
-                           const CorrectionOptions& options);
+ForwardError forward_error(const VariationalInequality& problem, const DoubleDoubleVector& u,
+                           double next_correction, const Eigen::VectorXd& constraint_residual,
+                           double contraction, double largest_u, const CorrectionOptions& options);
 
 /// Throws NotConverged where y (R) proves by Farkas's lemma (forward_error.cpp) that no admissible
 /// u has max |u| <= max_u. y is the part of the residual of B u = 0 that does not decay, and u (N)
@@ -50,8 +50,8 @@ ForwardError forward_error(const VariationalInequality& problem, const DoubleDou
 /// by sqrt(eps). This should suffice, since u at the true compliance is hardly larger than u with
 /// the penalty (expected, not proved). The second call is made for a solution. y is then
 /// ConstraintDefect::infeasible_part, and max_u is slightly above the largest |u|.
-void throw_if_infeasible(const VariationalInequality& problem, const DoubleDoubleVector& y, const Eigen::VectorXd& u,
-                         double max_u, const Solution& so_far);
+void throw_if_infeasible(const VariationalInequality& problem, const DoubleDoubleVector& y,
+                         const Eigen::VectorXd& u, double max_u, const Solution& so_far);
 
 /// Estimates the round-off of one solve relative to u where B has no rows, so that K is A1: n_free
 /// eps cond(K). cond(K) is estimated from below by the largest diagonal entry divided by the
@@ -82,7 +82,8 @@ struct ConstraintDefect {
 /// and where the problem has more than 10 defaults::max_rows_for_qr unknowns. In the last two cases
 /// Solution::error does not contain the error of nearly dependent rows. kernel_dimension
 /// (analysis/) finds such rows.
-ConstraintDefect constraint_defect(const VariationalInequality& problem, const Eigen::VectorXd& constraint_residual,
+ConstraintDefect constraint_defect(const VariationalInequality& problem,
+                                   const Eigen::VectorXd& constraint_residual,
                                    const BoundStatuses& status);
 
 /// Adds two errors of u to result.error, which is absolute here. Neither of them changes the size

@@ -70,7 +70,8 @@ double worst_violation(const Kkt& kkt);
 
 /// Computes solution.kkt and appends to solution.warning. Throws NotConverged where the worst
 /// violation is above `fail`, and Error as kkt_report does.
-void check_kkt(const VariationalInequality& problem, Solution& solution, const KktTolerances& levels = {});
+void check_kkt(const VariationalInequality& problem, Solution& solution,
+               const KktTolerances& levels = {});
 /// Does the second half of check_kkt: compares solution.kkt with the levels.
 void apply_tolerances(Solution& solution, const KktTolerances& levels = {});
 
@@ -89,15 +90,17 @@ struct KktParts {
   }
 };
 /// Computes the parts without the forces of the bounds. u: N entries, p: R.
-KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p);
+KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u,
+                   const Eigen::VectorXd& p);
 
 /// Adds the residuals of r1 and r2 to the report. `fixed` (N) is not 0 at prescribed unknowns. `u`,
 /// `force` and `with_reactions` are U, F_0 and F. For a problem on subdomains they are computed
 /// from the whole problem. Returns min(f_k, F_0) of all unknowns (N), infinite at prescribed ones.
-Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed, double u, double force,
-                              double with_reactions);
+Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed,
+                              double u, double force, double with_reactions);
 /// Adds the gap, pressure and complementarity of bound i to the report. `value` is s_i, `reach` is
 /// reach_i and `force` is force_i.
-void add_bound(Kkt& kkt, const BoundLimits& bounds, int i, double value, double lambda, double reach, double force);
+void add_bound(Kkt& kkt, const BoundLimits& bounds, int i, double value, double lambda,
+               double reach, double force);
 
 }  // namespace antilock

@@ -31,7 +31,8 @@ class PenalisedCholesky {
   /// malformed problem, for a penalty that is not positive, and where K is not positive definite
   /// (then A1 + B' M B is singular: a component of the mesh has no support). Throws NotConverged
   /// where memory runs out.
-  explicit PenalisedCholesky(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
+  explicit PenalisedCholesky(const VariationalInequality& problem,
+                             std::optional<double> penalty = std::nullopt,
                              ContactReduction reduction = ContactReduction::automatic,
                              CholeskyMaker make = default_cholesky);
 

@@ -33,7 +33,8 @@ struct DofOrdering {
 
 /// Returns the penalty of each row of B (R): delta for parametric rows and for rows with the fixed
 /// compliance 0, and max(c, least) for a row with the fixed compliance c > 0.
-inline Eigen::VectorXd row_penalties(const VariationalInequality& problem, double delta, double least) {
+inline Eigen::VectorXd row_penalties(const VariationalInequality& problem, double delta,
+                                     double least) {
   Eigen::VectorXd penalties = Eigen::VectorXd::Constant(problem.b.rows(), delta);
   const Eigen::ArrayXd own = problem.fixed_compliances.array();
   penalties.tail(own.size()) = (own > 0).select(own.max(least), delta);
@@ -44,8 +45,8 @@ inline Eigen::VectorXd row_penalties(const VariationalInequality& problem, doubl
 /// n_free, in the order of `ordering`), for R penalties. K is used only for the factorisation:
 /// where delta^-1 B' M B dominates A1, the sum has lost digits of A1 by cancellation, and residuals
 /// with it would be wrong (tutorial 18).
-inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const DofOrdering& ordering,
-                                     const Eigen::VectorXd& penalty) {
+inline SparseMatrix penalised_matrix(const VariationalInequality& problem,
+                                     const DofOrdering& ordering, const Eigen::VectorXd& penalty) {
   const int size = static_cast<int>(ordering.dof.size());
   const SparseMatrix b_by_column = problem.b;
   SparseMatrix k(size, size);
@@ -84,7 +85,8 @@ inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const
 
 /// Returns the same for one penalty delta of all rows; a fixed compliance above delta is the
 /// penalty of its row.
-inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const DofOrdering& ordering, double delta) {
+inline SparseMatrix penalised_matrix(const VariationalInequality& problem,
+                                     const DofOrdering& ordering, double delta) {
   return penalised_matrix(problem, ordering, row_penalties(problem, delta, delta));
 }
 

@@ -94,7 +94,9 @@ class ConstrainedCholesky {
   }
 
   /// Returns K x, with the whole K.
-  Eigen::VectorXd times(const Eigen::VectorXd& x) const { return k_.selfadjointView<Eigen::Upper>() * x; }
+  Eigen::VectorXd times(const Eigen::VectorXd& x) const {
+    return k_.selfadjointView<Eigen::Upper>() * x;
+  }
   /// Returns |K| x, with the absolute values of the entries of K.
   Eigen::VectorXd absolute_times(const Eigen::VectorXd& x) const {
     const SparseMatrix sizes = k_.cwiseAbs();

@@ -19,8 +19,8 @@
 namespace antilock {
 namespace {
 
-/// x = K^-1 b by the factor asked for (K symmetric, n x n, both triangles given); empty where the factorisation gives
-/// up.
+/// x = K^-1 b by the factor asked for (K symmetric, n x n, both triangles given); empty where the
+/// factorisation gives up.
 Eigen::VectorXd summed_solve(const SparseMatrix& k, const Eigen::VectorXd& b, SummedFactor kind) {
   const BlasCalls blas;
   Eigen::VectorXd x;
@@ -39,8 +39,10 @@ Eigen::VectorXd summed_solve(const SparseMatrix& k, const Eigen::VectorXd& b, Su
 /// A^-1 on the free places by CG + ILUT, the paper's linear step; a run that fails is an exception.
 class CgIlut {
  public:
-  static constexpr double cg_tolerance = 1e-10;  // Eigen stops on the residual relative to the right-hand side
-  explicit CgIlut(const SparseMatrix& upper_triangle) : a_(upper_triangle.selfadjointView<Eigen::Upper>()) {
+  static constexpr double cg_tolerance =
+      1e-10;  // Eigen stops on the residual relative to the right-hand side
+  explicit CgIlut(const SparseMatrix& upper_triangle)
+      : a_(upper_triangle.selfadjointView<Eigen::Upper>()) {
     cg_.preconditioner().setDroptol(1e-6);
     cg_.preconditioner().setFillfactor(20);
     cg_.setTolerance(cg_tolerance);
@@ -53,25 +55,27 @@ class CgIlut {
     ++runs;
     Eigen::VectorXd x = cg_.solveWithGuess(b, guess);
     if (cg_.info() != Eigen::Success || !x.allFinite())
-      throw NotConverged(
-          fmt::format("uzawa, CG + ILUT: the conjugate gradients of linear solve {} stopped at a relative residual of "
-                      "{:.1e} after {} iterations, accepted {:.0e}",
-                      runs, cg_.error(), cg_.iterations(), cg_tolerance),
-          cg_.error(), runs);
+      throw NotConverged(fmt::format("uzawa, CG + ILUT: the conjugate gradients of linear solve {} "
+                                     "stopped at a relative residual of "
+                                     "{:.1e} after {} iterations, accepted {:.0e}",
+                                     runs, cg_.error(), cg_.iterations(), cg_tolerance),
+                         cg_.error(), runs);
     return x;
   }
   int runs = 0;
 
  private:
   SparseMatrix a_;
-  Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteLUT<double>> cg_;
+  Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteLUT<double>>
+      cg_;
 };
 
 /// The solution x of K x = load + forces of the bounds, with the active unknowns at their lower
 /// bounds and no force at the others. It is empty where the factorisation gives up. `k` is K with
 /// both triangles.
 Eigen::VectorXd solve_with_active(const VariationalInequality& problem, const SummedSystem& system,
-                                  const SparseMatrix& k, const std::vector<bool>& active, SummedFactor kind) {
+                                  const SparseMatrix& k, const std::vector<bool>& active,
+                                  SummedFactor kind) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(system.load.size());
   std::vector<int> inactive;
   for (int i = 0; i < static_cast<int>(x.size()); ++i) {
@@ -82,9 +86,12 @@ Eigen::VectorXd solve_with_active(const VariationalInequality& problem, const Su
       inactive.push_back(i);
   }
   SparseMatrix chosen(x.size(), static_cast<Eigen::Index>(inactive.size()));
-  for (std::size_t i = 0; i < inactive.size(); ++i) chosen.insert(inactive[i], static_cast<Eigen::Index>(i)) = 1;
-  const Eigen::VectorXd rest = system.load - system.upper_triangle.selfadjointView<Eigen::Upper>() * x;
-  const Eigen::VectorXd x_inactive = summed_solve(chosen.transpose() * k * chosen, rest(inactive), kind);
+  for (std::size_t i = 0; i < inactive.size(); ++i)
+    chosen.insert(inactive[i], static_cast<Eigen::Index>(i)) = 1;
+  const Eigen::VectorXd rest =
+      system.load - system.upper_triangle.selfadjointView<Eigen::Upper>() * x;
+  const Eigen::VectorXd x_inactive =
+      summed_solve(chosen.transpose() * k * chosen, rest(inactive), kind);
   if (x_inactive.size() == 0) return {};
   x(inactive) = x_inactive;
   return x;
@@ -93,7 +100,8 @@ Eigen::VectorXd solve_with_active(const VariationalInequality& problem, const Su
 /// Sets lambda to the forces of the active bounds. Then releases the active bounds that pull and
 /// activates the others that are violated. Returns whether there is none. `x` and `force` have one
 /// entry per bound.
-bool update_active(Solution& s, const Eigen::VectorXd& lower, const Eigen::VectorXd& x, const Eigen::VectorXd& force) {
+bool update_active(Solution& s, const Eigen::VectorXd& lower, const Eigen::VectorXd& x,
+                   const Eigen::VectorXd& force) {
   bool converged = true;
   s.lambda.setZero();
   for (Eigen::Index i = 0; i < lower.size(); ++i) {
@@ -110,9 +118,12 @@ bool update_active(Solution& s, const Eigen::VectorXd& lower, const Eigen::Vecto
 /// Refuses the options that this method does not have.
 void check_options(const UzawaOptions& options, const std::string& who) {
   if (options.step_length && !(*options.step_length > 0))
-    throw Error(fmt::format("{}: step_length = {}; accepted: a positive number", who, *options.step_length));
+    throw Error(fmt::format("{}: step_length = {}; accepted: a positive number", who,
+                            *options.step_length));
   if (options.stop_at)
-    throw Error(who + ": options.stop_at needs for the condensed matrix; accepted: tolerance, or the solver uzawa");
+    throw Error(who +
+                ": options.stop_at needs for the condensed matrix; accepted: tolerance, or the "
+                "solver uzawa");
 }
 
 /// The step length 1.9 / mu, mu the largest eigenvalue of the compliance of the C bounded unknowns
@@ -134,9 +145,11 @@ struct UzawaIterate {
 };
 
 /// Iterates lambda <- max(0, lambda - rho (x - lower)), K x = load + lambda, until the step is
-/// within the tolerance. Then lambda and x belong together. Appends the relative steps to `history`.
-UzawaIterate iterate(CgIlut& solve, const Eigen::VectorXd& load, const Eigen::VectorXd& lower, double rho,
-                     const UzawaOptions& options, const Stopwatch& watch, std::vector<double>& history) {
+/// within the tolerance. Then lambda and x belong together. Appends the relative steps to
+/// `history`.
+UzawaIterate iterate(CgIlut& solve, const Eigen::VectorXd& load, const Eigen::VectorXd& lower,
+                     double rho, const UzawaOptions& options, const Stopwatch& watch,
+                     std::vector<double>& history) {
   const Eigen::Index bounded = lower.size();
   UzawaIterate now{Eigen::VectorXd::Zero(load.size()), Eigen::VectorXd::Zero(bounded)};
   while (true) {
@@ -153,33 +166,37 @@ UzawaIterate iterate(CgIlut& solve, const Eigen::VectorXd& load, const Eigen::Ve
     now.lambda = next;
     const int steps = static_cast<int>(history.size());
     if (steps >= options.max_iterations || watch.seconds() > options.max_seconds)
-      throw NotConverged(
-          fmt::format(
-              "uzawa, CG + ILUT: not converged: relative step {:.1e} after {} steps and {:.1f} s, accepted {:.0e}",
-              change, steps, watch.seconds(), options.tolerance),
-          change, steps);
+      throw NotConverged(fmt::format("uzawa, CG + ILUT: not converged: relative step {:.1e} after "
+                                     "{} steps and {:.1f} s, accepted {:.0e}",
+                                     change, steps, watch.seconds(), options.tolerance),
+                         change, steps);
   }
 }
 
 }  // namespace
 
-SummedSystem summed_system(const VariationalInequality& problem, const std::string& who, const char* instead) {
+SummedSystem summed_system(const VariationalInequality& problem, const std::string& who,
+                           const char* instead) {
   check(problem);
   require_lower_bounds(problem.bounds, who);
   if (problem.b.rows() > 0 && problem.compliance == 0)
-    throw Error(fmt::format(
-        "{}: the summed matrix does not exist at epsilon = 0; accepted epsilon > 0, or the solver {}", who, instead));
-  if (problem.fixed_compliances.size() > 0)
     throw Error(
-        fmt::format("{}: rows of B with fixed compliances are not summed; accepted: a problem without them, or "
+        fmt::format("{}: the summed matrix does not exist at epsilon = 0; accepted epsilon > 0, or "
                     "the solver {}",
                     who, instead));
+  if (problem.fixed_compliances.size() > 0)
+    throw Error(fmt::format(
+        "{}: rows of B with fixed compliances are not summed; accepted: a problem without them, or "
+        "the solver {}",
+        who, instead));
   DofOrdering ordering(problem);
-  SparseMatrix upper_triangle = penalised_matrix(problem, ordering, problem.compliance);  // the sum, and the fault
+  SparseMatrix upper_triangle =
+      penalised_matrix(problem, ordering, problem.compliance);  // the sum, and the fault
   Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.size());
   u(problem.dirichlet_dofs) = problem.dirichlet_values;
   Eigen::VectorXd load = problem.load - problem.a1 * u;
-  if (problem.b.rows() > 0) load -= problem.b.transpose() * problem.m.cwiseProduct(problem.b * u) / problem.compliance;
+  if (problem.b.rows() > 0)
+    load -= problem.b.transpose() * problem.m.cwiseProduct(problem.b * u) / problem.compliance;
   load = Eigen::VectorXd(load(ordering.dof));
   return {std::move(ordering), std::move(upper_triangle), std::move(load), std::move(u)};
 }
@@ -188,7 +205,8 @@ std::string to_string(ConvergedReason reason) {
   return std::array{"settled", "cycled", "refused", "step cap"}[static_cast<std::size_t>(reason)];
 }
 
-NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_iterations) {
+NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind,
+                               int max_iterations) {
   const Stopwatch watch;
   const SummedSystem system = summed_system(problem, "naive", "active_set");
   const SparseMatrix k = system.upper_triangle.selfadjointView<Eigen::Upper>();
@@ -246,7 +264,8 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
   double rho = options.step_length.value_or(0);
   if (!options.step_length && bounded > 0) rho = longest_step(solve, system.load.size(), bounded);
 
-  UzawaIterate last = iterate(solve, system.load, problem.bounds.lower, rho, options, watch, s.history);
+  UzawaIterate last =
+      iterate(solve, system.load, problem.bounds.lower, rho, options, watch, s.history);
   s.seconds.solve = stage.lap();
   s.u(system.ordering.dof) = last.x;
   s.lambda = std::move(last.lambda);

@@ -18,7 +18,8 @@ struct SummedSystem {
 /// Assembles the system. Throws Error at compliance = 0 where B has rows, since K does not exist,
 /// for rows of B with fixed compliances, and for bounds other than lower bounds on unknowns. The
 /// message begins with `who` and recommends the solver `instead`.
-SummedSystem summed_system(const VariationalInequality& problem, const std::string& who, const char* instead);
+SummedSystem summed_system(const VariationalInequality& problem, const std::string& who,
+                           const char* instead);
 
 enum class SummedFactor { cholesky, lu };  ///< CHOLMOD; UMFPACK
 
@@ -42,7 +43,8 @@ struct NaiveResult {
 
 /// Solves by the primal-dual active set method, which starts without contact and factors K on the
 /// inactive unknowns in every iteration. Throws as summed_system does.
-NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_iterations = 100);
+NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind,
+                               int max_iterations = 100);
 
 /// Solves by the algorithm and the linear solver of [SR04], Section 4.2 (cited in
 /// problem/variational_inequality.hpp): Uzawa's method, whose every step runs conjugate gradients

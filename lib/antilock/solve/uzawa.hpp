@@ -53,6 +53,7 @@ struct UzawaOptions {
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options = {});
 /// Does the same with a factor that exists already, made with ContactReduction::schur_complement.
 /// Throws Error for another one.
-Solution uzawa(const VariationalInequality& problem, PenalisedCholesky& factor, const UzawaOptions& options = {});
+Solution uzawa(const VariationalInequality& problem, PenalisedCholesky& factor,
+               const UzawaOptions& options = {});
 
 }  // namespace antilock

@@ -9,7 +9,8 @@ const Element& element(const std::string& name) {
     if (lagrange(degree).name() == name) return lagrange(degree);
   for (const Element* candidate : {&crouzeix_raviart(), &p1_bubble()})
     if (candidate->name() == name) return *candidate;
-  throw Error("element: \"" + name + "\" is unknown; accepted \"P1\" to \"P6\", \"CR\" and \"P1+bubble\"");
+  throw Error("element: \"" + name +
+              "\" is unknown; accepted \"P1\" to \"P6\", \"CR\" and \"P1+bubble\"");
 }
 
 }  // namespace antilock

@@ -1,4 +1,5 @@
-// P1, Section 4.1: continuous, affine on each triangle; the unknowns are the values at the vertices.
+// P1, Section 4.1: continuous, affine on each triangle; the unknowns are the values at the
+// vertices.
 #include "antilock/space/element.hpp"
 
 namespace antilock {
@@ -15,7 +16,9 @@ class P1 final : public Element {
 
   // phi_i = lambda_i
   Eigen::VectorXd basis(const Eigen::Vector3d& lambda) const override { return lambda; }
-  Eigen::MatrixX3d derivative(const Eigen::Vector3d&) const override { return Eigen::Matrix3d::Identity(); }
+  Eigen::MatrixX3d derivative(const Eigen::Vector3d&) const override {
+    return Eigen::Matrix3d::Identity();
+  }
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
-// P1 and a bubble, the element of MINI (Arnold, Brezzi and Fortin 1984): continuous, affine on each triangle but for a
-// cubic that is 0 on its edges; the unknowns are the values at the vertices and at the centroid.
+// P1 and a bubble, the element of MINI (Arnold, Brezzi and Fortin 1984): continuous, affine on each
+// triangle but for a cubic that is 0 on its edges; the unknowns are the values at the vertices and
+// at the centroid.
 #include "antilock/space/element.hpp"
 
 namespace antilock {
@@ -8,7 +9,9 @@ namespace {
 class P1Bubble final : public Element {
  public:
   std::string name() const override { return "P1+bubble"; }
-  int degree() const override { return 3; }  // of the bubble: it reproduces polynomials of degree 1 alone
+  int degree() const override {
+    return 3;
+  }  // of the bubble: it reproduces polynomials of degree 1 alone
   int dofs_per_vertex() const override { return 1; }
   int dofs_per_edge() const override { return 0; }
   int dofs_per_cell() const override { return 1; }

@@ -9,7 +9,9 @@ Space::Space(TriangleMesh mesh, const Element& element)
     : Space(std::make_shared<const TriangleMesh>(std::move(mesh)), element) {}
 
 Space::Space(std::shared_ptr<const TriangleMesh> mesh, const Element& element)
-    : mesh_(std::move(mesh)), element_(&element), numbering_(std::make_shared<const Numbering>(*mesh_, element)) {}
+    : mesh_(std::move(mesh)),
+      element_(&element),
+      numbering_(std::make_shared<const Numbering>(*mesh_, element)) {}
 
 Space::Space(const Space& other, const Element& element) : Space(other.mesh_, element) {}
 
@@ -18,8 +20,8 @@ bool have_one_mesh(const Space& a, const Space& b) {
   const TriangleMesh& two = b.mesh();
   if (&one == &two) return true;
   return one.vertex_count() == two.vertex_count() && one.triangle_count() == two.triangle_count() &&
-         one.vertices == two.vertices && one.triangles == two.triangles && one.region == two.region &&
-         one.edge_tag == two.edge_tag;
+         one.vertices == two.vertices && one.triangles == two.triangles &&
+         one.region == two.region && one.edge_tag == two.edge_tag;
 }
 
 Space::Numbering::Numbering(const TriangleMesh& mesh, const Element& element) {
@@ -36,16 +38,20 @@ Space::Numbering::Numbering(const TriangleMesh& mesh, const Element& element) {
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     int local = 0;
     for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < dofs_per_vertex; ++k) cell_dofs(t, local++) = dofs_per_vertex * mesh.triangles(t, i) + k;
+      for (int k = 0; k < dofs_per_vertex; ++k)
+        cell_dofs(t, local++) = dofs_per_vertex * mesh.triangles(t, i) + k;
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
       // unknowns of an edge are numbered from its smaller vertex, whichever triangle looks at it
       const bool forward = mesh.triangles(t, (i + 1) % 3) == mesh.edges(e, 0);
       for (int k = 0; k < dofs_per_edge; ++k)
-        cell_dofs(t, local++) = first_edge + dofs_per_edge * e + (forward ? k : dofs_per_edge - 1 - k);
+        cell_dofs(t, local++) =
+            first_edge + dofs_per_edge * e + (forward ? k : dofs_per_edge - 1 - k);
     }
-    for (int k = 0; k < dofs_per_cell; ++k) cell_dofs(t, local++) = first_inner + dofs_per_cell * t + k;
-    const Eigen::Matrix<double, 3, 2> corners = mesh.vertices(mesh.triangles.row(t), Eigen::indexing::all);
+    for (int k = 0; k < dofs_per_cell; ++k)
+      cell_dofs(t, local++) = first_inner + dofs_per_cell * t + k;
+    const Eigen::Matrix<double, 3, 2> corners =
+        mesh.vertices(mesh.triangles.row(t), Eigen::indexing::all);
     for (int i = 0; i < local; ++i) dof_coordinates.row(cell_dofs(t, i)) = nodes.row(i) * corners;
   }
 
@@ -78,7 +84,8 @@ Eigen::Matrix<double, 3, 2> barycentric_gradients(const TriangleMesh& mesh, int 
 
 Eigen::Vector2d point_in(const TriangleMesh& mesh, int t, const Eigen::Vector3d& lambda) {
   Eigen::Vector2d point = Eigen::Vector2d::Zero();
-  for (int i = 0; i < 3; ++i) point += lambda(i) * mesh.vertices.row(mesh.triangles(t, i)).transpose();
+  for (int i = 0; i < 3; ++i)
+    point += lambda(i) * mesh.vertices.row(mesh.triangles(t, i)).transpose();
   return point;
 }
 

@@ -21,8 +21,9 @@ struct Method {
 
 /// Returns all pairs of an element and a family, ordered by elements. Without arguments these are
 /// four methods (the caption of Figure 9 of [SR04] counts three).
-inline std::vector<Method> methods(const std::vector<const Element*>& elements = {&p1(), &crouzeix_raviart()},
-                                   const std::vector<MeshFamily>& families = {structured(), unstructured()}) {
+inline std::vector<Method> methods(
+    const std::vector<const Element*>& elements = {&p1(), &crouzeix_raviart()},
+    const std::vector<MeshFamily>& families = {structured(), unstructured()}) {
   std::vector<Method> all;
   for (const Element* element : elements)
     for (const MeshFamily& family : families) all.push_back({element, family});

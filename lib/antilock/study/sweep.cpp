@@ -11,7 +11,9 @@ Sweep::Sweep(VariationalInequality problem) : problem_(std::move(problem)) { che
 
 void Sweep::set_compliance(double compliance) {
   if (problem_.b.rows() == 0)
-    throw Error("sweep: the compliance does not vary where nothing is stiff; accepted: a problem whose B has rows");
+    throw Error(
+        "sweep: the compliance does not vary where nothing is stiff; accepted: a problem whose B "
+        "has rows");
   if (!(compliance >= 0 && compliance <= 1))
     throw Error(fmt::format("sweep: compliance {}; accepted: 0 to 1", compliance));
   problem_.compliance = compliance;
@@ -19,13 +21,15 @@ void Sweep::set_compliance(double compliance) {
 
 void Sweep::set_load(Eigen::VectorXd load) {
   if (load.size() != problem_.size() || !load.allFinite())
-    throw Error(fmt::format("sweep: a load of {} entries; accepted: {} finite ones, one per unknown", load.size(),
-                            problem_.size()));
+    throw Error(
+        fmt::format("sweep: a load of {} entries; accepted: {} finite ones, one per unknown",
+                    load.size(), problem_.size()));
   problem_.load = std::move(load);
 }
 
 void Sweep::set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upper) {
-  if (problem_.bounds.unknowns.empty()) throw Error("sweep: no unknown is bounded; accepted: a problem with contact");
+  if (problem_.bounds.unknowns.empty())
+    throw Error("sweep: no unknown is bounded; accepted: a problem with contact");
   const BoundLimits before = problem_.bounds.limits();
   problem_.bounds.lower = std::move(lower);
   if (upper) problem_.bounds.upper = std::move(*upper);

@@ -26,7 +26,8 @@ std::string in_csv(const std::string& word) {
 
 Eigen::ArrayXd some(const Table& table, const std::string& column) {
   const std::vector<double> all = table.numbers(column);
-  if (all.empty()) throw Error(fmt::format("table: column '{}' of no rows; accepted: of one or more", column));
+  if (all.empty())
+    throw Error(fmt::format("table: column '{}' of no rows; accepted: of one or more", column));
   return Eigen::Map<const Eigen::ArrayXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
@@ -35,13 +36,15 @@ Eigen::ArrayXd some(const Table& table, const std::string& column) {
 std::string TableEntry::text(int digits) const {
   if (!is_number()) return std::get<std::string>(value_);
   const bool whole = number() == std::floor(number()) && std::abs(number()) < 1e9;
-  return digits == 0 || whole ? fmt::format("{}", number()) : fmt::format("{:.{}g}", number(), digits);
+  return digits == 0 || whole ? fmt::format("{}", number())
+                              : fmt::format("{:.{}g}", number(), digits);
 }
 
 std::size_t Table::column_index(const std::string& column) const {
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found == columns_.end())
-    throw Error(fmt::format("table: no column '{}'; accepted: {}", column, fmt::join(columns_, ", ")));
+    throw Error(
+        fmt::format("table: no column '{}'; accepted: {}", column, fmt::join(columns_, ", ")));
   return static_cast<std::size_t>(found - columns_.begin());
 }
 
@@ -53,15 +56,15 @@ Table::Table(std::vector<std::string> columns) : columns_(std::move(columns)) {
 
 void Table::add(std::vector<TableEntry> row) {
   if (row.size() != columns_.size())
-    throw Error(fmt::format("table: a row of {} entries; accepted: {}, one per column ({})", row.size(),
-                            columns_.size(), fmt::join(columns_, ", ")));
+    throw Error(fmt::format("table: a row of {} entries; accepted: {}, one per column ({})",
+                            row.size(), columns_.size(), fmt::join(columns_, ", ")));
   rows_.push_back(std::move(row));
 }
 
 void Table::add(const Table& other) {
   if (other.columns_ != columns_)
-    throw Error(fmt::format("table: rows of the columns {}; accepted: {}", fmt::join(other.columns_, ", "),
-                            fmt::join(columns_, ", ")));
+    throw Error(fmt::format("table: rows of the columns {}; accepted: {}",
+                            fmt::join(other.columns_, ", "), fmt::join(columns_, ", ")));
   rows_.insert(rows_.end(), other.rows_.begin(), other.rows_.end());
 }
 
@@ -69,15 +72,19 @@ Table Table::filter(const std::string& column, const TableEntry& value) const {
   return filter_rows(column, [&](const TableEntry& entry) { return entry == value; });
 }
 
-Table Table::filter_number(const std::string& column, const std::function<bool(double)>& holds) const {
+Table Table::filter_number(const std::string& column,
+                           const std::function<bool(double)>& holds) const {
   numbers(column);  // refuses words
   return filter_rows(column, [&](const TableEntry& entry) { return holds(entry.number()); });
 }
 
-Table Table::filter_rows(const std::string& column, const std::function<bool(const TableEntry&)>& holds) const {
+Table Table::filter_rows(const std::string& column,
+                         const std::function<bool(const TableEntry&)>& holds) const {
   Table filter_rows(columns_);
   std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(filter_rows.rows_),
-               [&, at = column_index(column)](const std::vector<TableEntry>& row) { return holds(row[at]); });
+               [&, at = column_index(column)](const std::vector<TableEntry>& row) {
+                 return holds(row[at]);
+               });
   return filter_rows;
 }
 
@@ -105,7 +112,8 @@ std::vector<double> Table::numbers(const std::string& column) const {
   std::vector<double> numbers;
   for (const TableEntry& entry : entries(column)) {
     if (!entry.is_number())
-      throw Error(fmt::format("table: '{}' in column '{}'; accepted: a number", entry.text(), column));
+      throw Error(
+          fmt::format("table: '{}' in column '{}'; accepted: a number", entry.text(), column));
     numbers.push_back(entry.number());
   }
   return numbers;
@@ -113,7 +121,8 @@ std::vector<double> Table::numbers(const std::string& column) const {
 
 TableEntry Table::entry(const std::string& column) const {
   const std::vector<TableEntry> all = entries(column);
-  if (all.size() != 1) throw Error(fmt::format("table: column '{}' of {} rows; accepted: of one", column, all.size()));
+  if (all.size() != 1)
+    throw Error(fmt::format("table: column '{}' of {} rows; accepted: of one", column, all.size()));
   return all.front();
 }
 
@@ -122,8 +131,12 @@ double Table::number(const std::string& column) const {
   return numbers(column).front();
 }
 
-double Table::min(const std::string& column) const { return some(*this, column).minCoeff<Eigen::PropagateNaN>(); }
-double Table::max(const std::string& column) const { return some(*this, column).maxCoeff<Eigen::PropagateNaN>(); }
+double Table::min(const std::string& column) const {
+  return some(*this, column).minCoeff<Eigen::PropagateNaN>();
+}
+double Table::max(const std::string& column) const {
+  return some(*this, column).maxCoeff<Eigen::PropagateNaN>();
+}
 double Table::first(const std::string& column) const { return some(*this, column)(0); }
 double Table::last(const std::string& column) const { return some(*this, column).tail<1>()(0); }
 
@@ -131,10 +144,11 @@ double Table::order(const std::string& y, const std::string& x) const {
   for (const std::string& column : {y, x})
     for (const double value : numbers(column))
       if (!(value > 0 && std::isfinite(value)))
-        throw Error(fmt::format("table: order of {} in column '{}'; accepted: a number > 0", value, column));
+        throw Error(fmt::format("table: order of {} in column '{}'; accepted: a number > 0", value,
+                                column));
   if (unique(x).size() < 2)
-    throw Error(
-        fmt::format("table: order of '{}' in '{}' from {} places; accepted: two or more", y, x, unique(x).size()));
+    throw Error(fmt::format("table: order of '{}' in '{}' from {} places; accepted: two or more", y,
+                            x, unique(x).size()));
   return slope(numbers(x), numbers(y));
 }
 
@@ -148,7 +162,8 @@ std::vector<double> Table::pairwise_orders(const std::string& y, const std::stri
   return orders;
 }
 
-Table Table::pivot(const std::string& rows, const std::string& across, const std::string& value) const {
+Table Table::pivot(const std::string& rows, const std::string& across,
+                   const std::string& value) const {
   const std::vector<TableEntry> down = unique(rows), right = unique(across);
   std::vector<std::string> columns{rows};
   for (const int digits : {4, 0}) {  // rounded, unless two of them become one
@@ -163,8 +178,8 @@ Table Table::pivot(const std::string& rows, const std::string& across, const std
     for (const TableEntry& entry : right) {
       const std::vector<TableEntry> here = line.filter(across, entry).entries(value);
       if (here.size() > 1)
-        throw Error(fmt::format("table: {} entries for {} = {}, {} = {}; accepted: one", here.size(), rows, name.text(),
-                                across, entry.text()));
+        throw Error(fmt::format("table: {} entries for {} = {}, {} = {}; accepted: one",
+                                here.size(), rows, name.text(), across, entry.text()));
       row.push_back(here.empty() ? TableEntry("") : here.front());
     }
     pivoted.add(std::move(row));
@@ -176,7 +191,8 @@ Table Table::select(const std::vector<std::string>& columns) const {
   Table selected(columns);
   selected.rows_.resize(rows_.size());
   for (const std::string& column : columns)
-    for (std::size_t i = 0; const TableEntry& entry : entries(column)) selected.rows_[i++].push_back(entry);
+    for (std::size_t i = 0; const TableEntry& entry : entries(column))
+      selected.rows_[i++].push_back(entry);
   return selected;
 }
 
@@ -187,15 +203,18 @@ std::string Table::text(int digits) const {
     for (const auto& row : rows_) words.push_back(row[at].text(digits));
     std::size_t width = 0;
     for (const std::string& word : words) width = std::max(width, word.size());
-    const bool left = std::none_of(rows_.begin(), rows_.end(), [&](const auto& row) { return row[at].is_number(); });
+    const bool left = std::none_of(rows_.begin(), rows_.end(),
+                                   [&](const auto& row) { return row[at].is_number(); });
     for (std::size_t i = 0; i < lines.size(); ++i)
-      lines[i] += left ? fmt::format("  {:<{}}", words[i], width) : fmt::format("  {:>{}}", words[i], width);
+      lines[i] += left ? fmt::format("  {:<{}}", words[i], width)
+                       : fmt::format("  {:>{}}", words[i], width);
   }
   return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
 void Table::print(const std::string& title, int digits) const {
-  fmt::print("\n{}{}{}\n", title.empty() ? "" : "  " + title, title.empty() ? "" : "\n", text(digits));
+  fmt::print("\n{}{}{}\n", title.empty() ? "" : "  " + title, title.empty() ? "" : "\n",
+             text(digits));
   std::fflush(stdout);
 }
 
@@ -203,7 +222,8 @@ void Table::write(const std::filesystem::path& path) const {
   write_file(path, [&](std::ostream& out) {
     Text text(out);
     const auto line = [&](const std::vector<TableEntry>& row) {
-      for (std::size_t i = 0; i < row.size(); ++i) text.print("{}{}", i > 0 ? "," : "", in_csv(row[i].text()));
+      for (std::size_t i = 0; i < row.size(); ++i)
+        text.print("{}{}", i > 0 ? "," : "", in_csv(row[i].text()));
       text.print("\n");
     };
     line({columns_.begin(), columns_.end()});

@@ -89,7 +89,8 @@ class Table {
 
  private:
   std::size_t column_index(const std::string& column) const;
-  Table filter_rows(const std::string& column, const std::function<bool(const TableEntry&)>& holds) const;
+  Table filter_rows(const std::string& column,
+                    const std::function<bool(const TableEntry&)>& holds) const;
   std::vector<std::string> columns_;
   std::vector<std::vector<TableEntry>> rows_;
 };

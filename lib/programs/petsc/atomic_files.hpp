@@ -21,7 +21,8 @@ void write_folder_together(const std::filesystem::path& folder,
 /// Writes one file, to which the ranks write one after the other, so that no rank needs all of it.
 /// `head` is the beginning of the file, and `part` writes the lines of this rank. With an empty
 /// `head` an existing file is continued.
-void write_in_turns(const std::filesystem::path& path, const std::string& head, const std::function<void(Text&)>& part);
+void write_in_turns(const std::filesystem::path& path, const std::string& head,
+                    const std::function<void(Text&)>& part);
 
 /// Writes `x,y,u`, one row per unknown in the order of the rows of the level. For P1 this is the
 /// order of the nodes of write_msh_together.

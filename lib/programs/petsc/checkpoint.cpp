@@ -42,7 +42,9 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string&
   std::ifstream in;
   if (std::filesystem::is_regular_file(path, ignored)) in.open(path);
   if (!in.is_open())
-    throw Error(path.string() + ": --restart: there is no checkpoint; accepted: after a run to this folder was ended");
+    throw Error(
+        path.string() +
+        ": --restart: there is no checkpoint; accepted: after a run to this folder was ended");
   Checkpoint checkpoint;
   auto& [asked, cells, set] = checkpoint;
   try {
@@ -55,11 +57,13 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string&
     cells = 0;
   }
   if (cells < 1 || set.active.size() != set.x.size() || !std::is_sorted(set.x.begin(), set.x.end()))
-    throw Error(path.string() + ": --restart: is no checkpoint, or is damaged; accepted: a run without --restart");
-  if (asked != question)
     throw Error(path.string() +
-                ": --restart: belongs to another scene; accepted: the scene file as it was then, or a "
-                "run without --restart");
+                ": --restart: is no checkpoint, or is damaged; accepted: a run without --restart");
+  if (asked != question)
+    throw Error(
+        path.string() +
+        ": --restart: belongs to another scene; accepted: the scene file as it was then, or a "
+        "run without --restart");
   return checkpoint;
 }
 

@@ -28,10 +28,12 @@ namespace fs = std::filesystem;
 double energy_of_all(const NestedLevel& level) {
   const VariationalInequality& part = level.problem.part();
   const Eigen::VectorXd &u = level.state.u, &p = level.state.p;
-  return sum(u.dot(part.a1 * u) / 2 + part.compliance * p.dot(part.m.cwiseProduct(p)) / 2 - part.load.dot(u));
+  return sum(u.dot(part.a1 * u) / 2 + part.compliance * p.dot(part.m.cwiseProduct(p)) / 2 -
+             part.load.dot(u));
 }
 
-/// Per unknown of the subdomain: the contact pressure, a density; 0 off Gamma_C. Certified: below zero is round-off.
+/// Per unknown of the subdomain: the contact pressure, a density; 0 off Gamma_C. Certified: below
+/// zero is round-off.
 Eigen::VectorXd pressures(const NestedLevel& level) {
   const DofMap& rows = level.problem.rows();
   const Eigen::VectorXd lambda = contact_forces(level.problem, level.state);
@@ -40,7 +42,9 @@ Eigen::VectorXd pressures(const NestedLevel& level) {
   {
     Entries values(v);  // the length of Gamma_C that each unknown stands for
     for (int place = 0; place < rows.owned(); ++place)
-      values[place] = std::isinf(level.problem.lower()(place)) ? 0 : std::max(lambda(place) / values[place], 0.0);
+      values[place] = std::isinf(level.problem.lower()(place))
+                          ? 0
+                          : std::max(lambda(place) / values[place], 0.0);
   }
   return rows.local(v);
 }
@@ -53,35 +57,41 @@ Eigen::MatrixX3d contact_table_of_all(const NestedLevel& level, const Eigen::Vec
     const double lower = level.problem.lower()(place);
     if (std::isinf(lower)) continue;
     const int i = rows.unknown(place);
-    mine.insert(mine.end(),
-                {level.space.dof_coordinates()(i, 0), std::max(level.state.u(i) - lower, 0.0), pressure(i)});
+    mine.insert(mine.end(), {level.space.dof_coordinates()(i, 0),
+                             std::max(level.state.u(i) - lower, 0.0), pressure(i)});
   }
   const std::vector<double> all = all_gather(mine);
   std::vector<std::array<double, 3>> sorted(all.size() / 3);
-  for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = {all[3 * i], all[3 * i + 1], all[3 * i + 2]};
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    sorted[i] = {all[3 * i], all[3 * i + 1], all[3 * i + 2]};
   std::sort(sorted.begin(), sorted.end());
   Eigen::MatrixX3d table(static_cast<Eigen::Index>(sorted.size()), 3);
-  for (Eigen::Index i = 0; i < table.rows(); ++i) table.row(i) << sorted[i][0], sorted[i][1], sorted[i][2];
+  for (Eigen::Index i = 0; i < table.rows(); ++i)
+    table.row(i) << sorted[i][0], sorted[i][1], sorted[i][2];
   return table;
 }
 
-/// Layer stress and pressure as a VTU file takes them: per triangle, and per contact unknown of the subdomain.
+/// Layer stress and pressure as a VTU file takes them: per triangle, and per contact unknown of the
+/// subdomain.
 VtuFields fields_of(const NestedLevel& level, const Eigen::VectorXd& pressure, bool contact) {
   const TriangleMesh& mesh = level.space.mesh();
   VtuFields fields{Eigen::VectorXd::Zero(mesh.triangle_count()), {}};
   for (int t = 0, row = 0; t < mesh.triangle_count() && row < level.state.p.size(); ++t)
-    if (mesh.region[t] == Region::layer) fields.p(t) = level.state.p(row++);  // one row of B per layer triangle
+    if (mesh.region[t] == Region::layer)
+      fields.p(t) = level.state.p(row++);  // one row of B per layer triangle
   if (contact) fields.pressure = pressure(level.space.contact_dofs());
   return fields;
 }
 
 void write_pvtu(const fs::path& path, bool contact) {
   write_file(path, [&](std::ostream& out) {
-    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" "
+           "byte_order=\"LittleEndian\">\n"
            "<PUnstructuredGrid GhostLevel=\"0\">\n"
            "<PPointData Scalars=\"u\">\n<PDataArray type=\"Float64\" Name=\"u\"/>\n"
         << (contact ? "<PDataArray type=\"Float64\" Name=\"pressure\"/>\n" : "")
-        << "</PPointData>\n<PCellData Scalars=\"region\">\n<PDataArray type=\"Int32\" Name=\"region\"/>\n"
+        << "</PPointData>\n<PCellData Scalars=\"region\">\n<PDataArray type=\"Int32\" "
+           "Name=\"region\"/>\n"
            "<PDataArray type=\"Float64\" Name=\"p\"/>\n</PCellData>\n"
            "<PPoints>\n<PDataArray type=\"Float64\" NumberOfComponents=\"3\"/>\n</PPoints>\n";
     for (int r = 0; r < ranks(); ++r) out << "<Piece Source=\"" << piece_name(r) << "\"/>\n";
@@ -90,12 +100,14 @@ void write_pvtu(const fs::path& path, bool contact) {
 }
 
 /// Every number of the summary that all ranks must form together.
-SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, const NestedReport& report, int levels,
+SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level,
+                            const NestedReport& report, int levels,
                             const std::optional<LockingReport>& layer, const std::string& warning) {
   SceneSummary s;
   s.layer = layer;
   const bool from_file = file.mesh.from_file();
-  s.h = from_file ? largest(level.space.mesh().diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
+  s.h = from_file ? largest(level.space.mesh().diameter())
+                  : 1.0 / (file.mesh.cells << file.mesh.refinements);
   s.unknowns = level.problem.rows().total();
   s.energy = energy_of_all(level);
   s.u_max = largest(level.state.u.maxCoeff());
@@ -120,15 +132,15 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, con
 
 }  // namespace
 
-std::optional<LockingReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse, int refinements,
-                                                 const NestedLevel& level) {
+std::optional<LockingReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse,
+                                                 int refinements, const NestedLevel& level) {
   const Scene& scene = file.scene;
-  const bool may_lock =
-      scene.layer_depth() > 0 && level.space.element().conforming() && !layer_components(coarse).is_aligned;
+  const bool may_lock = scene.layer_depth() > 0 && level.space.element().conforming() &&
+                        !layer_components(coarse).is_aligned;
   std::vector<double> values;
   for (int i = 0; may_lock && i < level.space.size(); ++i)
-    values.insert(values.end(),
-                  {level.space.dof_coordinates()(i, 0), level.space.dof_coordinates()(i, 1), level.state.u(i)});
+    values.insert(values.end(), {level.space.dof_coordinates()(i, 0),
+                                 level.space.dof_coordinates()(i, 1), level.state.u(i)});
   values = all_gather(values);
   std::optional<LockingReport> report;
   collectively([&] {
@@ -139,16 +151,20 @@ std::optional<LockingReport> layer_report_of_all(const SceneFile& file, const Tr
     if (may_lock) {
       const Space& space = whole.space;
       // the pieces and this mesh were refined apart: their points agree to round-off
-      const auto key = [](double x, double y) { return std::pair(std::llround(1e9 * x), std::llround(1e9 * y)); };
+      const auto key = [](double x, double y) {
+        return std::pair(std::llround(1e9 * x), std::llround(1e9 * y));
+      };
       std::map<std::pair<long long, long long>, double> at;
-      for (std::size_t i = 0; i < values.size(); i += 3) at[key(values[i], values[i + 1])] = values[i + 2];
+      for (std::size_t i = 0; i < values.size(); i += 3)
+        at[key(values[i], values[i + 1])] = values[i + 2];
       whole.problem = assemble(scene, space);
       Solution& solution = whole.solution;
       solution.u.resize(space.size());
       for (int i = 0; i < space.size(); ++i)
         solution.u(i) = at.at(key(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1)));
       solution.p = Eigen::VectorXd::Zero(whole.problem.b.rows());
-      if (whole.problem.compliance > 0) solution.p = whole.problem.b * solution.u / whole.problem.compliance;
+      if (whole.problem.compliance > 0)
+        solution.p = whole.problem.b * solution.u / whole.problem.compliance;
     }
     report = report_locking(scene, whole);
   });
@@ -156,8 +172,9 @@ std::optional<LockingReport> layer_report_of_all(const SceneFile& file, const Tr
 }
 
 void write_scene_files(const fs::path& folder, const SceneFile& file, const NestedLevel& level,
-                       const NestedReport& report, int levels, const std::optional<LockingReport>& layer,
-                       const std::string& warning, const RunSeconds& seconds) {
+                       const NestedReport& report, int levels,
+                       const std::optional<LockingReport>& layer, const std::string& warning,
+                       const RunSeconds& seconds) {
   const bool contact = file.scene.contact().has_value();
   const bool csv = level.problem.rows().total() <= most_csv_unknowns;
   const SceneSummary summary = summary_of_all(file, level, report, levels, layer, warning);
@@ -168,7 +185,8 @@ void write_scene_files(const fs::path& folder, const SceneFile& file, const Nest
     const Eigen::VectorXd pressure = pressures(level);
     const Eigen::MatrixX3d table = contact_table_of_all(level, pressure);
     const VtuFields fields = fields_of(level, pressure, contact);
-    collectively([&] { write_vtu(draft / piece_name(rank()), level.space, level.state.u, fields); });
+    collectively(
+        [&] { write_vtu(draft / piece_name(rank()), level.space, level.state.u, fields); });
     collectively([&] {
       if (rank() > 0) return;
       write_pvtu(draft / "solution.pvtu", contact);

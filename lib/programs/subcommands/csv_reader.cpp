@@ -51,15 +51,18 @@ std::string_view header_fault(std::string_view line, const std::vector<std::stri
   if (text.starts_with('#')) return " behind a \"#\" (numpy.savetxt: comments=\"\" leaves it away)";
   if (text.find(';') != text.npos) return " with semicolons";
   if (text.find('\t') != text.npos) return " with tabs";
-  if (std::all_of(entries.begin(), entries.end(), is_number)) return ", which is no header but a row";
+  if (std::all_of(entries.begin(), entries.end(), is_number))
+    return ", which is no header but a row";
   return "";
 }
 
 /// The columns that the header names; throws Error for another header.
-std::size_t read_header(std::string_view line, const std::vector<std::string>& header, const CsvForm& form,
-                        const std::string& place, const std::string& accepted) {
+std::size_t read_header(std::string_view line, const std::vector<std::string>& header,
+                        const CsvForm& form, const std::string& place,
+                        const std::string& accepted) {
   const auto entries = split(line);
-  const bool fits = entries.size() <= header.size() && entries.size() + form.optional_columns >= header.size() &&
+  const bool fits = entries.size() <= header.size() &&
+                    entries.size() + form.optional_columns >= header.size() &&
                     std::equal(entries.begin(), entries.end(), header.begin());
   if (!fits)
     throw Error(fmt::format("{}: the header is \"{}\"{}; {}", place, printable(trimmed(line)),
@@ -69,13 +72,14 @@ std::size_t read_header(std::string_view line, const std::vector<std::string>& h
 
 }  // namespace
 
-CsvTable read_csv_table(std::istream& in, const std::string& name, const std::vector<std::string>& header,
-                        const CsvForm& form) {
+CsvTable read_csv_table(std::istream& in, const std::string& name,
+                        const std::vector<std::string>& header, const CsvForm& form) {
   const std::string file{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   std::string_view text = plain_text(file, name);
   std::string headers = fmt::format("{}", fmt::join(header, ","));
   for (std::size_t left = header.size() - form.optional_columns; left < header.size(); ++left)
-    headers = fmt::format("{} or {}", fmt::join(header.begin(), header.begin() + std::ptrdiff_t(left), ","), headers);
+    headers = fmt::format(
+        "{} or {}", fmt::join(header.begin(), header.begin() + std::ptrdiff_t(left), ","), headers);
   const std::string accepted = fmt::format(
       "accepted: the header {}, then one row of as many numbers per line, with "
       "commas between them",
@@ -94,10 +98,12 @@ CsvTable read_csv_table(std::istream& in, const std::string& name, const std::ve
       continue;
     }
     const auto entries = split(line);
-    if (entries.size() != columns) throw Error(fmt::format("{}: {} entries; {}", place, entries.size(), accepted));
+    if (entries.size() != columns)
+      throw Error(fmt::format("{}: {} entries; {}", place, entries.size(), accepted));
     for (const std::string_view entry : entries) {
       double value = 0;
-      const bool number = read_number(entry, value) && !std::isnan(value) && (form.infinite || std::isfinite(value));
+      const bool number = read_number(entry, value) && !std::isnan(value) &&
+                          (form.infinite || std::isfinite(value));
       if (!number)
         throw Error(fmt::format("{}: \"{}\" is no {}number; {}", place, printable(entry, 40),
                                 form.infinite ? "" : "finite ", accepted));
@@ -112,11 +118,13 @@ CsvTable read_csv_table(std::istream& in, const std::string& name, const std::ve
   return table;
 }
 
-CsvTable read_csv_table(const std::string& path, const std::vector<std::string>& header, const CsvForm& form) {
+CsvTable read_csv_table(const std::string& path, const std::vector<std::string>& header,
+                        const CsvForm& form) {
   return read_csv_table(*open_file(path, path, "a CSV file"), path, header, form);
 }
 
-Eigen::MatrixXd read_csv(std::istream& in, const std::string& name, const std::vector<std::string>& header) {
+Eigen::MatrixXd read_csv(std::istream& in, const std::string& name,
+                         const std::vector<std::string>& header) {
   return read_csv_table(in, name, header).numbers;
 }
 Eigen::MatrixXd read_csv(const std::string& path, const std::vector<std::string>& header) {

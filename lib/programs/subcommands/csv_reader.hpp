@@ -25,13 +25,15 @@ struct CsvForm {
 /// spaces and tabs, quotes around an entry, a plus sign and empty lines are accepted. Throws Error,
 /// `NAME: line N: what is wrong; accepted: ...`, for another header (none, one behind "#", one with
 /// semicolons), another number of entries, an entry that is no number, or a text in UTF-16.
-CsvTable read_csv_table(std::istream& in, const std::string& name, const std::vector<std::string>& header,
-                        const CsvForm& form = {});
+CsvTable read_csv_table(std::istream& in, const std::string& name,
+                        const std::vector<std::string>& header, const CsvForm& form = {});
 /// Does the same for a file. Throws Error also where it cannot be opened.
-CsvTable read_csv_table(const std::string& path, const std::vector<std::string>& header, const CsvForm& form = {});
+CsvTable read_csv_table(const std::string& path, const std::vector<std::string>& header,
+                        const CsvForm& form = {});
 
 /// Do the same, and return only the numbers.
-Eigen::MatrixXd read_csv(std::istream& in, const std::string& name, const std::vector<std::string>& header);
+Eigen::MatrixXd read_csv(std::istream& in, const std::string& name,
+                         const std::vector<std::string>& header);
 Eigen::MatrixXd read_csv(const std::string& path, const std::vector<std::string>& header);
 
 }  // namespace antilock::subcommands

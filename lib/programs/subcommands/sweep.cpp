@@ -1,4 +1,5 @@
-// antilock sweep SCENE.toml --epsilon 1e0:1e-8:9 --cells 8,16,32 --at 0.25,-1: one table over epsilon and meshes.
+// antilock sweep SCENE.toml --epsilon 1e0:1e-8:9 --cells 8,16,32 --at 0.25,-1: one table over
+// epsilon and meshes.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -27,25 +28,29 @@ std::vector<double> numbers(const std::string& option, const std::string& text, 
     double value = 0;
     const auto [next, error] = std::from_chars(from, end, value);
     if (error != std::errc() || !std::isfinite(value) || (next != end && *next != separator))
-      throw Error(fmt::format("antilock sweep: {}: \"{:.60}\"; accepted: numbers, with \"{}\" between them", option,
-                              text, separator));
+      throw Error(
+          fmt::format("antilock sweep: {}: \"{:.60}\"; accepted: numbers, with \"{}\" between them",
+                      option, text, separator));
     list.push_back(value);
     if (next == end) return list;
     from = next + 1;
   }
 }
 
-/// "1e0:1e-8:9": from, to, how many, the same factor between neighbours; or a list, in which 0 may stand.
+/// "1e0:1e-8:9": from, to, how many, the same factor between neighbours; or a list, in which 0 may
+/// stand.
 std::vector<double> epsilons(const std::string& text) {
   if (text.find(':') == std::string::npos) return numbers("--epsilon", text, ',');
   const std::vector<double> range = numbers("--epsilon", text, ':');
   if (range.size() != 3 || range[0] <= 0 || range[1] <= 0 || range[2] < 2 || range[2] > 1000 ||
       range[2] != std::floor(range[2]))
-    throw Error("antilock sweep: --epsilon: \"" + text + "\"; accepted: FROM:TO:COUNT, both above 0, 2 to 1000 values");
+    throw Error("antilock sweep: --epsilon: \"" + text +
+                "\"; accepted: FROM:TO:COUNT, both above 0, 2 to 1000 values");
   std::vector<double> list;
   const int count = static_cast<int>(range[2]);
   list.reserve(count);
-  for (int i = 0; i < count; ++i) list.push_back(range[0] * std::pow(range[1] / range[0], double(i) / (count - 1)));
+  for (int i = 0; i < count; ++i)
+    list.push_back(range[0] * std::pow(range[1] / range[0], double(i) / (count - 1)));
   return list;
 }
 
@@ -66,16 +71,20 @@ struct SweepRequest {
 };
 
 void add_sweep_arguments(CLI::App& line, SweepRequest& request) {
-  line.add_option("SCENE", request.scene, "the scene file, in TOML, with a scaled layer (run_scene --help)")
+  line.add_option("SCENE", request.scene,
+                  "the scene file, in TOML, with a scaled layer (run_scene --help)")
       ->required();
-  line.add_option("--epsilon", request.epsilons, "FROM:TO:COUNT, spaced by one factor, or a list such as 1,1e-2,0");
+  line.add_option("--epsilon", request.epsilons,
+                  "FROM:TO:COUNT, spaced by one factor, or a list such as 1,1e-2,0");
   line.add_option("--cells", request.cells,
                   "a list of cells per unit side, such as 8,16,32; default: the mesh of the scene");
   line.add_option("--at", request.at, "X,Y, or X,Y,X,Y,...: points whose u is listed");
   line.add_option("--out", request.out, "the CSV file; default: none, the table is printed alone");
   line.footer(
-      "The penalty delta of a mesh is chosen from its matrices. All epsilon with epsilon^2 <= delta share one "
-      "factorisation, and are corrected; each larger epsilon has its own, since corrections with a smaller delta need "
+      "The penalty delta of a mesh is chosen from its matrices. All epsilon with epsilon^2 <= "
+      "delta share one "
+      "factorisation, and are corrected; each larger epsilon has its own, since corrections with a "
+      "smaller delta need "
       "not converge there, and with a larger one are many. The column factorisations counts them.");
 }
 
@@ -84,7 +93,8 @@ std::vector<double> points_to_list(const std::string& text) {
   std::vector<double> at;
   if (!text.empty()) at = numbers("--at", text, ',');
   if (at.size() % 2 != 0)
-    throw Error("antilock sweep: --at: \"" + text + "\"; accepted: X,Y, or X,Y,X,Y for more points");
+    throw Error("antilock sweep: --at: \"" + text +
+                "\"; accepted: X,Y, or X,Y,X,Y for more points");
   return at;
 }
 
@@ -106,16 +116,17 @@ void check_cells(double n, const std::string& text, const MeshRequest& mesh) {
 OnMesh on_mesh(const SceneFile& file, const std::vector<double>& at) {
   OnMesh on{file.mesh.cells, Space(make_mesh(file), element(file.method.element)), {}};
   if (on.space.free_count() == 0)
-    throw Error(
-        fmt::format("{}: mesh: with {} cells every unknown is clamped, none is left to solve for; accepted: a "
-                    "finer mesh",
-                    file.name, on.cells));
+    throw Error(fmt::format(
+        "{}: mesh: with {} cells every unknown is clamped, none is left to solve for; accepted: a "
+        "finer mesh",
+        file.name, on.cells));
   const PointValues values(on.space);
   for (std::size_t i = 0; i < at.size(); i += 2) {
     const auto place = values.locate({at[i], at[i + 1]});
     if (!place)
       throw Error(
-          fmt::format("antilock sweep: --at: ({}, {}) is outside the mesh; accepted: points of it", at[i], at[i + 1]));
+          fmt::format("antilock sweep: --at: ({}, {}) is outside the mesh; accepted: points of it",
+                      at[i], at[i + 1]));
     on.places.push_back(*place);
   }
   return on;
@@ -142,7 +153,8 @@ ExactSolutions exact_solutions_of(const std::vector<Scene>& scenes) {
 
 std::vector<std::string> sweep_columns(std::size_t points, bool known) {
   std::vector<std::string> columns{"cells", "epsilon", "unknowns"};
-  for (std::size_t i = 1; i <= points; ++i) columns.push_back(points == 1 ? "u_at" : fmt::format("u_at_{}", i));
+  for (std::size_t i = 1; i <= points; ++i)
+    columns.push_back(points == 1 ? "u_at" : fmt::format("u_at_{}", i));
   columns.emplace_back("ridge");
   if (known) columns.insert(columns.end(), {"kept", "error_max", "error_energy"});
   columns.insert(columns.end(), {"factorisations", "corrections", "contact_steps", "seconds"});
@@ -161,7 +173,8 @@ void add_rows(Table& table, const Scene& scene, const OnMesh& on, const std::vec
     const double seconds = watch.seconds();
     const double found = layer_displacement(on.space, solution.u);
     std::vector<TableEntry> row{on.cells, list[i], on.space.free_count()};
-    for (const PointValues::Location& place : on.places) row.emplace_back(values.value(solution.u, place));
+    for (const PointValues::Location& place : on.places)
+      row.emplace_back(values.value(solution.u, place));
     row.emplace_back(found);
     if (exact.known()) {
       const Errors errors = measure_errors(on.space, solution, list[i], reference(exact.tables[i]));
@@ -186,7 +199,8 @@ double layer_displacement(const Space& space, const Eigen::VectorXd& u) {
 
 int sweep(int argc, char** argv) {
   CLI::App line(
-      "One scene, asked for many epsilons on many meshes: a table, printed and as CSV. The questions on "
+      "One scene, asked for many epsilons on many meshes: a table, printed and as CSV. The "
+      "questions on "
       "one mesh share assembly and, where they can, the factorisation.",
       "antilock sweep");
   SweepRequest request;
@@ -197,11 +211,13 @@ int sweep(int argc, char** argv) {
   check_not_an_input(request.out, {request.scene, file.mesh.file});
   require_paper_problem(file, "sweep");
   if (!std::holds_alternative<StiffLayer>(file.scene.layer()))
-    throw Error(file.name + ": layer.model: epsilon does not vary in this scene; accepted: a scaled layer");
+    throw Error(file.name +
+                ": layer.model: epsilon does not vary in this scene; accepted: a scaled layer");
   std::vector<Scene> scenes;  // an epsilon out of range is refused here
   const std::vector<double> list = epsilons(request.epsilons);
   scenes.reserve(list.size());
-  for (const double e : list) scenes.emplace_back(file.scene.body(), StiffLayer{e}, file.scene.contact());
+  for (const double e : list)
+    scenes.emplace_back(file.scene.body(), StiffLayer{e}, file.scene.contact());
   const std::vector<double> at = points_to_list(request.at);
   std::vector<OnMesh> meshes;
   for (const double n : cells_to_solve(request.cells, file.mesh)) {
@@ -218,7 +234,9 @@ int sweep(int argc, char** argv) {
   if (!request.out.empty()) table.write(request.out);
   table.print(file.title.empty() ? file.name : file.title);
   if (!exact.known())
-    fmt::print("  no exact solution is known of this scene: no errors (antilock exact --help says of which)\n");
+    fmt::print(
+        "  no exact solution is known of this scene: no errors (antilock exact --help says of "
+        "which)\n");
   return 0;
 }
 

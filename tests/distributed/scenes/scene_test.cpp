@@ -1,4 +1,5 @@
-// run_scene with solver = "petsc", from outside: alone and under mpiexec, asked well and badly, ended and restarted.
+// run_scene with solver = "petsc", from outside: alone and under mpiexec, asked well and badly,
+// ended and restarted.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -18,12 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string scene_text(const std::string& solver, const std::string& kind, const std::string& element, int cells,
-                       const std::string& method = "", int refinements = 0) {
-  return "[load]\nf = \"10*sin(2*pi*x)\"\n[layer]\nepsilon = 1e-6\n[contact]\n[mesh]\nkind = \"" + kind +
-         "\"\ncells = " + std::to_string(cells) +
-         (refinements > 0 ? "\nrefinements = " + std::to_string(refinements) : "") + "\n[method]\nelement = \"" +
-         element + "\"\nsolver = \"" + solver + "\"\n" + method;
+std::string scene_text(const std::string& solver, const std::string& kind,
+                       const std::string& element, int cells, const std::string& method = "",
+                       int refinements = 0) {
+  return "[load]\nf = \"10*sin(2*pi*x)\"\n[layer]\nepsilon = 1e-6\n[contact]\n[mesh]\nkind = \"" +
+         kind + "\"\ncells = " + std::to_string(cells) +
+         (refinements > 0 ? "\nrefinements = " + std::to_string(refinements) : "") +
+         "\n[method]\nelement = \"" + element + "\"\nsolver = \"" + solver + "\"\n" + method;
 }
 
 /// lib/cmake/mpi_environment.cmake says why; ranks that wait give way to whatever else runs.
@@ -32,17 +34,21 @@ constexpr auto environment = "env " MPI_ENVIRONMENT " OMPI_MCA_mpi_yield_when_id
 /// A scene and its runs, on as many ranks as asked: 0 is without mpiexec.
 class Runs {
  public:
-  explicit Runs(const std::string& scene) { std::ofstream(folder / "scene.toml", std::ios::binary) << scene; }
+  explicit Runs(const std::string& scene) {
+    std::ofstream(folder / "scene.toml", std::ios::binary) << scene;
+  }
   fs::path results(const std::string& name) const { return folder / name; }
   std::string command(int ranks, const std::string& name, const std::string& options = "") const {
-    const std::string launch = ranks > 0 ? std::string(environment) + MPIEXEC " -n " + std::to_string(ranks) + " " : "";
+    const std::string launch =
+        ranks > 0 ? std::string(environment) + MPIEXEC " -n " + std::to_string(ranks) + " " : "";
     return launch + in_shell(RUN_SCENE) + " " + in_shell(folder / "scene.toml") + " --out " +
-           in_shell(results(name).string()) + " " + options + " >" + in_shell(folder / "out") + " 2>" +
-           in_shell(folder / "err");
+           in_shell(results(name).string()) + " " + options + " >" + in_shell(folder / "out") +
+           " 2>" + in_shell(folder / "err");
   }
   Outcome run(int ranks, const std::string& name, const std::string& options = "") const {
     const int status = std::system(command(ranks, name, options).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out"), contents(folder / "err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out"),
+            contents(folder / "err")};
   }
   nlohmann::json summary(const std::string& name) const {
     return nlohmann::json::parse(contents(results(name) / "summary.json"));
@@ -62,17 +68,20 @@ Eigen::MatrixXd sorted(const Eigen::MatrixXd& rows) {
   return result;
 }
 
-/// What run_scene itself says on standard error: mpiexec adds lines of its own, all without the file's name.
+/// What run_scene itself says on standard error: mpiexec adds lines of its own, all without the
+/// file's name.
 int lines_about(const std::string& name, const std::string& err) {
   std::istringstream text(err);
   int count = 0;
-  for (std::string line; std::getline(text, line);) count += line.find(name) != std::string::npos ? 1 : 0;
+  for (std::string line; std::getline(text, line);)
+    count += line.find(name) != std::string::npos ? 1 : 0;
   return count;
 }
 
-/// The same question, serially and on each number of ranks: the same files, on as many levels as said.
-void expect_the_files_of_the_serial_run(const Runs& serial, const Runs& petsc, const std::vector<int>& all_ranks,
-                                        int levels) {
+/// The same question, serially and on each number of ranks: the same files, on as many levels as
+/// said.
+void expect_the_files_of_the_serial_run(const Runs& serial, const Runs& petsc,
+                                        const std::vector<int>& all_ranks, int levels) {
   ASSERT_EQ(serial.run(0, "serial").status, 0) << contents(serial.folder / "err");
   const Eigen::MatrixXd u = sorted(read_csv(serial.results("serial") / "solution.csv").rows);
   const Eigen::MatrixXd contact = read_csv(serial.results("serial") / "contact.csv").rows;
@@ -88,7 +97,8 @@ void expect_the_files_of_the_serial_run(const Runs& serial, const Runs& petsc, c
     EXPECT_LE((sorted(mine.rows) - u).cwiseAbs().maxCoeff(), 1e-9 * u.col(2).cwiseAbs().maxCoeff());
     ASSERT_EQ(table.rows.rows(), contact.rows());
     EXPECT_LE((table.rows - contact).leftCols<2>().cwiseAbs().maxCoeff(), 1e-9);
-    EXPECT_LE((table.rows - contact).col(2).cwiseAbs().maxCoeff(), 1e-6 * contact.col(2).maxCoeff());
+    EXPECT_LE((table.rows - contact).col(2).cwiseAbs().maxCoeff(),
+              1e-6 * contact.col(2).maxCoeff());
     const nlohmann::json ours = petsc.summary(name), theirs = serial.summary("serial");
     for (const char* key : {"dofs", "contact"}) EXPECT_EQ(ours[key], theirs[key]);
     EXPECT_NEAR(ours["h"].get<double>(), theirs["h"].get<double>(), 1e-12);
@@ -98,7 +108,8 @@ void expect_the_files_of_the_serial_run(const Runs& serial, const Runs& petsc, c
     EXPECT_EQ(ours["parallel"]["levels"], levels);
     for (int r = 0; r < std::max(ranks, 1); ++r)
       EXPECT_TRUE(fs::exists(petsc.results(name) / ("solution_" + std::to_string(r) + ".vtu")));
-    EXPECT_NE(contents(petsc.results(name) / "solution.pvtu").find("solution_0.vtu"), std::string::npos);
+    EXPECT_NE(contents(petsc.results(name) / "solution.pvtu").find("solution_0.vtu"),
+              std::string::npos);
     EXPECT_FALSE(fs::exists(petsc.results(name).string() + ".checkpoint"));
   }
 }
@@ -112,11 +123,13 @@ TEST(PetscScene, GivesTheFilesOfTheSerialRunOnAnyNumberOfRanks) {
                {"structured", "CR", 32, 0, 2, {2}},    {"structured", "P1", 16, 1, 2, {2}},
                {"layered", "P1", 9, 2, 3, {3}},        {"layered", "CR", 9, 2, 3, {4}}};
   for (const auto& [kind, element, cells, refinements, levels, ranks] : cases)
-    expect_the_files_of_the_serial_run(Runs(scene_text("active-set", kind, element, cells, "", refinements)),
-                                       Runs(scene_text("petsc", kind, element, cells, "", refinements)), ranks, levels);
+    expect_the_files_of_the_serial_run(
+        Runs(scene_text("active-set", kind, element, cells, "", refinements)),
+        Runs(scene_text("petsc", kind, element, cells, "", refinements)), ranks, levels);
 }
 
-TEST(PetscScene, RefinesABodyFromAFileOverALayerInColumns) {  // an L, and a bridge whose Sigma is in two pieces
+TEST(PetscScene,
+     RefinesABodyFromAFileOverALayerInColumns) {  // an L, and a bridge whose Sigma is in two pieces
   for (const bool pieces : {false, true}) {
     const TemporaryFolder folder;
     const std::string path = (folder / "body.msh").string();
@@ -125,7 +138,8 @@ TEST(PetscScene, RefinesABodyFromAFileOverALayerInColumns) {  // an L, and a bri
       std::string all = scene_text(solver, "file", pieces ? "CR" : "P1", 0, "", 2);
       return all.replace(all.find("cells = 0"), 9, "file = \"" + path + "\"");
     };
-    expect_the_files_of_the_serial_run(Runs(text("active-set")), Runs(text("petsc")), {pieces ? 3 : 2}, 3);
+    expect_the_files_of_the_serial_run(Runs(text("active-set")), Runs(text("petsc")),
+                                       {pieces ? 3 : 2}, 3);
   }
 }
 
@@ -143,10 +157,12 @@ TEST(PetscScene, IsNoMoreExactThanAsked) {
 
 TEST(PetscScene, ResultsNeverReplaceTheMeshTheyCameFrom) {
   const TemporaryFolder folder;
-  for (const std::string name : {"solution.pvtu", "solution_0.vtu", "solution_1.vtu", "solution_2.vtu"}) {
+  for (const std::string name :
+       {"solution.pvtu", "solution_0.vtu", "solution_1.vtu", "solution_2.vtu"}) {
     write_msh((folder / name).string(), structured_mesh(4));
     // pieces of an earlier run, without a gap
-    const std::ofstream one(folder / "solution_1.vtu", std::ios::app), zero(folder / "solution_0.vtu", std::ios::app);
+    const std::ofstream one(folder / "solution_1.vtu", std::ios::app),
+        zero(folder / "solution_0.vtu", std::ios::app);
     std::string text = scene_text("petsc", "file", "P1", 0);
     text.replace(text.find("cells = 0"), 9, "file = \"" + (folder / name).string() + "\"");
     const Runs runs(text);
@@ -163,14 +179,16 @@ TEST(PetscScene, TheMeshItWritesIsTheMeshItUsed) {
   const Runs petsc(scene_text("petsc", "structured", "P1", 32));
   ASSERT_EQ(petsc.run(3, "petsc").status, 0);
   std::string text = scene_text("active-set", "file", "P1", 0);
-  text.replace(text.find("cells = 0"), 9, "file = \"" + (petsc.results("petsc") / "mesh.msh").string() + "\"");
+  text.replace(text.find("cells = 0"), 9,
+               "file = \"" + (petsc.results("petsc") / "mesh.msh").string() + "\"");
   const Runs again(text);
   const Outcome outcome = again.run(0, "again");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const Csv mine = read_csv(petsc.results("petsc") / "solution.csv"),
             theirs = read_csv(again.results("again") / "solution.csv");
   ASSERT_EQ(mine.rows.rows(), theirs.rows.rows());
-  EXPECT_LE((mine.rows - theirs.rows).cwiseAbs().maxCoeff(), 1e-9);  // row for row: the order of the nodes
+  EXPECT_LE((mine.rows - theirs.rows).cwiseAbs().maxCoeff(),
+            1e-9);  // row for row: the order of the nodes
 }
 
 TEST(PetscScene, ABadQuestionIsRefusedOnEveryRankAlike) {
@@ -184,7 +202,8 @@ TEST(PetscScene, ABadQuestionIsRefusedOnEveryRankAlike) {
       {scene_text("petsc", "structured", "P1", 32, "tolerance = 1e-18\n"), "double precision", 3},
       {scene_text("petsc", "layered", "P1", 16, "", 8), "refinements", 2},
       {scene_text("petsc", "structured", "P2", 16), "P2", 2},
-      {"[load]\nf = \"1/(x - 0.6)\"\n[mesh]\nkind = \"structured\"\ncells = 30\n[method]\nsolver = \"petsc\"\n",
+      {"[load]\nf = \"1/(x - 0.6)\"\n[mesh]\nkind = \"structured\"\ncells = 30\n[method]\nsolver = "
+       "\"petsc\"\n",
        "not finite", 2},
   };
   for (const auto& [scene, says, status] : cases) {
@@ -213,7 +232,8 @@ TEST(PetscScene, ALimitOfMemoryIsSeenBeforeItIsMet) {
   const Runs runs(scene_text("petsc", "structured", "P1", 1024));
   const int status = std::system(("ulimit -v 1500000; " + runs.command(0, "results")).c_str());
   EXPECT_EQ(WEXITSTATUS(status), 3);
-  EXPECT_EQ(lines_about("limit of this process", contents(runs.folder / "err")), 1) << contents(runs.folder / "err");
+  EXPECT_EQ(lines_about("limit of this process", contents(runs.folder / "err")), 1)
+      << contents(runs.folder / "err");
   EXPECT_FALSE(fs::exists(runs.results("results")));
 }
 
@@ -224,11 +244,13 @@ TEST(PetscScene, AKilledRunLeavesACheckpointFromWhichAnotherStarts) {
   const pid_t child = ::fork();
   if (child == 0) {
     ::setpgid(0, 0);
-    ::setenv("PETSC_OPTIONS", "-pc_type bjacobi -sub_pc_type icc", 1);  // slow, so that no machine ends it too soon
+    ::setenv("PETSC_OPTIONS", "-pc_type bjacobi -sub_pc_type icc",
+             1);  // slow, so that no machine ends it too soon
     ::execl("/bin/sh", "sh", "-c", ("exec " + runs.command(2, "results")).c_str(), nullptr);
     ::_exit(127);
   }
-  for (int i = 0; i < 15000 && !fs::exists(checkpoint); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  for (int i = 0; i < 15000 && !fs::exists(checkpoint); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   ::kill(child, SIGTERM);
   int status = 0;
   ::waitpid(child, &status, 0);
@@ -241,10 +263,12 @@ TEST(PetscScene, AKilledRunLeavesACheckpointFromWhichAnotherStarts) {
   EXPECT_FALSE(fs::exists(checkpoint));
   ASSERT_EQ(runs.run(2, "whole").status, 0);
   EXPECT_EQ(runs.summary("results")["contact"], runs.summary("whole")["contact"]);
-  EXPECT_NEAR(runs.summary("results")["energy"].get<double>(), runs.summary("whole")["energy"].get<double>(), 1e-10);
+  EXPECT_NEAR(runs.summary("results")["energy"].get<double>(),
+              runs.summary("whole")["energy"].get<double>(), 1e-10);
 }
 
-// An option of PETSc may write files and load a library. A folder of examples may hold such options.
+// An option of PETSc may write files and load a library. A folder of examples may hold such
+// options.
 TEST(PetscScene, ReadsNoOptionsFromTheFolderInWhichItIsStarted) {
   const Runs runs(scene_text("petsc", "structured", "P1", 16));
   for (const std::string name : {".petscrc", "petscrc"}) {
@@ -252,7 +276,8 @@ TEST(PetscScene, ReadsNoOptionsFromTheFolderInWhichItIsStarted) {
     std::ofstream(runs.folder / name) << "-ksp_view ascii:" << marker << "\n";
     for (const int ranks : {0, 2}) {
       const std::string start = "cd " + in_shell(runs.folder.path().string()) + " && ";
-      EXPECT_EQ(std::system((start + runs.command(ranks, "results")).c_str()), 0) << contents(runs.folder / "err");
+      EXPECT_EQ(std::system((start + runs.command(ranks, "results")).c_str()), 0)
+          << contents(runs.folder / "err");
       EXPECT_FALSE(fs::exists(runs.folder / marker)) << ranks;
     }
     fs::remove(runs.folder / name);
@@ -262,9 +287,10 @@ TEST(PetscScene, ReadsNoOptionsFromTheFolderInWhichItIsStarted) {
 TEST(PetscScene, ACheckpointOfAnotherSceneOrADamagedOneIsRefused) {
   const Runs runs(scene_text("petsc", "structured", "P1", 64));
   const fs::path checkpoint = runs.results("results").string() + ".checkpoint";
-  for (const std::string text : {R"({"question": "0123456789abcdef", "cells": 32, "x": [0.5], "active": [1]})",
-                                 R"({"question": "0123456789abcdef", "cells": 32, "x": [0.5], "act)",
-                                 R"({"question": "0123456789abcdef", "cells": 32, "x": [0.5], "active": []})", ""}) {
+  for (const std::string text :
+       {R"({"question": "0123456789abcdef", "cells": 32, "x": [0.5], "active": [1]})",
+        R"({"question": "0123456789abcdef", "cells": 32, "x": [0.5], "act)",
+        R"({"question": "0123456789abcdef", "cells": 32, "x": [0.5], "active": []})", ""}) {
     std::ofstream(checkpoint, std::ios::binary) << text;
     const Outcome outcome = runs.run(2, "results", "--restart");
     EXPECT_EQ(outcome.status, 2);

@@ -1,4 +1,5 @@
-// The nearest element of K_h and of K_0h, dual norms, and the numbers of (5) that they are compared with.
+// The nearest element of K_h and of K_0h, dual norms, and the numbers of (5) that they are compared
+// with.
 #include "antilock/analysis/best_approximation.hpp"
 #include "antilock/exact/exact_norms.hpp"
 #include "antilock/form/h1_gram_matrix.hpp"
@@ -11,11 +12,13 @@
 
 namespace antilock::test::analysis_test::best_approximation_test {
 
-// A function of K that P1 holds on a structured mesh with a line x = 1/2; not constant across the layer.
-const Reference tent{
-    [](double x, double y) { return std::min(x, 1 - x) * (1 - y); },
-    [](double x, double y) { return Eigen::Vector2d(std::copysign(1 - y, 0.5 - x), -std::min(x, 1 - x)); },
-    [](double, double) { return 0.0; }};
+// A function of K that P1 holds on a structured mesh with a line x = 1/2; not constant across the
+// layer.
+const Reference tent{[](double x, double y) { return std::min(x, 1 - x) * (1 - y); },
+                     [](double x, double y) {
+                       return Eigen::Vector2d(std::copysign(1 - y, 0.5 - x), -std::min(x, 1 - x));
+                     },
+                     [](double, double) { return 0.0; }};
 
 TEST(BestApproximation, AFunctionOfTheSetIsItsOwnNearestElement) {
   const Reference flat{[](double x, double y) { return std::min(x, 1 - x) * (y > 0 ? 1 - y : 1); },
@@ -48,10 +51,13 @@ TEST(BestApproximation, TheKernelIsFartherAndHoldsItsCondition) {
 TEST(BestApproximation, TheFunctionalIsPartOfWhatIsMinimised) {
   const Space space(structured_mesh(8), p1());
   auto problem = test::stiff_problem(space, 0);
-  problem.bounds = {};  // then the derivative of |u - v|_h^2 + load . v vanishes at the smallest value
+  problem
+      .bounds = {};  // then the derivative of |u - v|_h^2 + load . v vanishes at the smallest value
   const Eigen::VectorXd load = load_vector(space, paper_load);
-  const BestApproximation found = best_approximation(space, problem, tent, AdmissibleSet::k_h, load);
-  Eigen::VectorXd derivative = 2 * (h1_gram_matrix(space) * found.v - h1_products(space, tent)) + load;
+  const BestApproximation found =
+      best_approximation(space, problem, tent, AdmissibleSet::k_h, load);
+  Eigen::VectorXd derivative =
+      2 * (h1_gram_matrix(space) * found.v - h1_products(space, tent)) + load;
   for (const int i : problem.dirichlet_dofs) derivative(i) = 0;
   EXPECT_LT(derivative.cwiseAbs().maxCoeff(), 1e-10 * load.cwiseAbs().maxCoeff());
   EXPECT_NEAR(found.value, found.distance * found.distance + load.dot(found.v), 1e-12);
@@ -61,9 +67,11 @@ TEST(DualNorm, OfARieszRepresentativeIsItsNorm) {
   const Space space(unstructured_mesh(6), crouzeix_raviart());
   const auto problem = test::stiff_problem(space, 0);
   const SparseMatrix norm = h1_gram_matrix(space);
-  Eigen::VectorXd w = (3 * space.dof_coordinates().col(0).array()).sin() * space.dof_coordinates().col(1).array();
+  Eigen::VectorXd w =
+      (3 * space.dof_coordinates().col(0).array()).sin() * space.dof_coordinates().col(1).array();
   for (const int i : problem.dirichlet_dofs) w(i) = 0;
-  const double all = dual_norm(problem, norm, norm * w), in_kernel = dual_norm(problem, norm, norm * w, true);
+  const double all = dual_norm(problem, norm, norm * w),
+               in_kernel = dual_norm(problem, norm, norm * w, true);
   VariationalInequality other = problem;  // a norm knows no bounds and no given values
   other.bounds.upper = Eigen::VectorXd::Ones(other.bounds.lower.size());
   other.dirichlet_values.setOnes();
@@ -88,7 +96,8 @@ TEST(StressNorm, IsTheIntegralOfTheLayerStress) {
   }
 }
 
-// The limit on the layer is a function of x, and u^0 - u^c on the body is its harmonic extension: both by midpoints.
+// The limit on the layer is a function of x, and u^0 - u^c on the body is its harmonic extension:
+// both by midpoints.
 TEST(LayerNorm, AndWhatClampingCostsAreIntegralsOfTheLimit) {
   constexpr double pi = std::numbers::pi;
   const ExactSolution limit(paper_sine_load(), 0, true, 14);
@@ -102,7 +111,8 @@ TEST(LayerNorm, AndWhatClampingCostsAreIntegralsOfTheLimit) {
   double body = 0;
   for (int k = 1; k <= 60; ++k) {  // the waves of u^0 on Sigma fall like k^-3
     double w = 0, square = 0;
-    for (int i = 0; i < n; ++i) w += 2.0 / n * limit.value((i + 0.5) / n, 0) * std::sin(k * pi * (i + 0.5) / n);
+    for (int i = 0; i < n; ++i)
+      w += 2.0 / n * limit.value((i + 0.5) / n, 0) * std::sin(k * pi * (i + 0.5) / n);
     for (int j = 0; j < 4 * n; ++j) {
       const double a = k * pi, y = (j + 0.5) / (4 * n), scale = 1 / std::sinh(a);
       const double v = scale * std::sinh(a * (1 - y)), slope = a * scale * std::cosh(a * (1 - y));

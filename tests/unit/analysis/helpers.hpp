@@ -34,7 +34,8 @@ inline void disturb(Answered& run, double amount, unsigned seed) {
   const auto noise = [&] { return amount * (2.0 * random() / std::mt19937::max() - 1); };
   std::vector<char> fixed(run.space.size(), 0);
   for (const int i : run.problem.dirichlet_dofs) fixed[i] = 1;
-  const double u = run.solution.u.lpNorm<Eigen::Infinity>(), p = run.solution.p.lpNorm<Eigen::Infinity>();
+  const double u = run.solution.u.lpNorm<Eigen::Infinity>(),
+               p = run.solution.p.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < run.space.size(); ++i) run.solution.u(i) += fixed[i] ? 0 : noise() * u;
   for (double& value : run.solution.p) value += noise() * p;
 }

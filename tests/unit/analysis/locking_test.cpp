@@ -1,4 +1,5 @@
-// The diagnosis of locking held against what is kept: members of the class, elements and meshes, locked and not.
+// The diagnosis of locking held against what is kept: members of the class, elements and meshes,
+// locked and not.
 #include <Eigen/LU>
 #include <string>
 
@@ -29,15 +30,17 @@ double flexibility(VariationalInequality problem) {
   return active_set(equality_constrained(problem, none)).u.dot(problem.load);
 }
 
-/// `kept` is measured: the flexibility at compliance 1e-8 over that of the method that is known to be right.
-LockingDiagnosis expect_right(const std::string& name, const Problem& method, const Problem& right, int cells,
-                              bool locks, std::pair<double, double> kept) {
+/// `kept` is measured: the flexibility at compliance 1e-8 over that of the method that is known to
+/// be right.
+LockingDiagnosis expect_right(const std::string& name, const Problem& method, const Problem& right,
+                              int cells, bool locks, std::pair<double, double> kept) {
   VariationalInequality coarse = method(cells / 2), fine = method(cells);
   const LockingDiagnosis found = diagnose_locking(coarse, fine);
   EXPECT_EQ(found.locks(), locks) << name << ": " << found.text();
   EXPECT_EQ(found.text().find("locks") != std::string::npos, locks) << found.text();
   const double measured = flexibility(fine) / flexibility(right(cells));
-  fmt::print("| {} | {} | {:.3g} |\n", name, found.text(), measured);  // the table of what is told and what is kept
+  fmt::print("| {} | {} | {:.3g} |\n", name, found.text(),
+             measured);  // the table of what is told and what is kept
   EXPECT_GE(measured, kept.first) << name;
   EXPECT_LE(measured, kept.second) << name;
   for (const double unit : {1e6, 1e-9}) {  // no unit of A1 is better than another
@@ -56,14 +59,17 @@ TEST(LockingDiagnosis, IsRightForTheScaledLayerOnNineFamiliesOfMeshes) {
   };
   const Problem right = method("structured", p2());
   for (const MeshFamily& family : mesh_families()) {
-    const bool columns = family.name == "structured" || family.name == "layered" || family.name == "columns";
-    const LockingDiagnosis found =
-        expect_right(family.name + " P1", method(family.name, p1()), right, 16, !columns, columns ? all : nearly_none);
+    const bool columns =
+        family.name == "structured" || family.name == "layered" || family.name == "columns";
+    const LockingDiagnosis found = expect_right(family.name + " P1", method(family.name, p1()),
+                                                right, 16, !columns, columns ? all : nearly_none);
     EXPECT_EQ(found.verdict() == Verdict::locks_completely, found.fine == 0);
     EXPECT_EQ(found.fine, family.name == "structured" ? 15 : found.fine) << "all move";
-    expect_right(family.name + " CR", method(family.name, crouzeix_raviart()), right, 16, false, all);
+    expect_right(family.name + " CR", method(family.name, crouzeix_raviart()), right, 16, false,
+                 all);
     // the one parabola that P2 keeps is what this force asks for: other loads find nothing
-    const int kept = expect_right(family.name + " P2", method(family.name, p2()), right, 16, !columns, all).fine;
+    const int kept =
+        expect_right(family.name + " P2", method(family.name, p2()), right, 16, !columns, all).fine;
     EXPECT_EQ(kept, family.name == "unstructured" ? 1 : kept);
   }
 }
@@ -73,7 +79,8 @@ TEST(LockingDiagnosis, FindsThatAHalfIsHeld) {
     TriangleMesh mesh = structured_mesh(cells);
     const TriangleMesh moved = jittered_mesh(cells, 0.2);
     for (int v = 0; v < mesh.vertex_count(); ++v)
-      if (mesh.vertices(v, 0) > 0.5 && mesh.vertices(v, 1) < 0) mesh.vertices.row(v) = moved.vertices.row(v);
+      if (mesh.vertices(v, 0) > 0.5 && mesh.vertices(v, 1) < 0)
+        mesh.vertices.row(v) = moved.vertices.row(v);
     return test::stiff_problem(Space(mesh, p1()), 0);
   };
   const LockingDiagnosis found = diagnose_locking(method(8), method(16));
@@ -82,10 +89,11 @@ TEST(LockingDiagnosis, FindsThatAHalfIsHeld) {
 }
 
 TEST(LockingDiagnosis, IsRightForRubberWhereTheBoundsMoveInsideOneTriangleAlone) {
-  const auto method = [](Diagonal diagonal, bool any, const Element& x, const Element& y) -> Problem {
+  const auto method = [](Diagonal diagonal, bool any, const Element& x,
+                         const Element& y) -> Problem {
     return [=, &x, &y](int cells) {
-      const TriangleMesh mesh =
-          with_free_sides(any ? unstructured_mesh(cells, {0}) : structured_mesh(cells, {0}, diagonal));
+      const TriangleMesh mesh = with_free_sides(any ? unstructured_mesh(cells, {0})
+                                                    : structured_mesh(cells, {0}, diagonal));
       const Space of_x(mesh, x), of_y(mesh, y);
       PlaneStrain rubber;
       rubber.epsilon = 0;
@@ -94,28 +102,36 @@ TEST(LockingDiagnosis, IsRightForRubberWhereTheBoundsMoveInsideOneTriangleAlone)
   };
   const Element& cr = crouzeix_raviart();
   const Problem right = method(Diagonal::crossed, false, p2(), p2());
-  expect_right("rubber P1 right", method(Diagonal::right, false, p1(), p1()), right, 32, true, {0.3, 0.7});
-  expect_right("rubber P1 unstructured", method(Diagonal::right, true, p1(), p1()), right, 32, true, {0.3, 0.85});
-  expect_right("rubber P1 crossed", method(Diagonal::crossed, false, p1(), p1()), right, 32, false, all);
+  expect_right("rubber P1 right", method(Diagonal::right, false, p1(), p1()), right, 32, true,
+               {0.3, 0.7});
+  expect_right("rubber P1 unstructured", method(Diagonal::right, true, p1(), p1()), right, 32, true,
+               {0.3, 0.85});
+  expect_right("rubber P1 crossed", method(Diagonal::crossed, false, p1(), p1()), right, 32, false,
+               all);
   expect_right("rubber CR", method(Diagonal::right, true, cr, cr), right, 32, false, all);
   expect_right("rubber P1 / CR", method(Diagonal::right, true, p1(), cr), right, 32, false, all);
 }
 
 TEST(LockingDiagnosis, IsRightForBeamAndPlate) {
   const auto beam = [](ShearIntegration shear) -> Problem {
-    return [shear](int cells) { return assemble(Beam{.cells = cells, .epsilon = 0, .shear = shear}); };
+    return
+        [shear](int cells) { return assemble(Beam{.cells = cells, .epsilon = 0, .shear = shear}); };
   };
-  expect_right("beam, full", beam(ShearIntegration::full), beam(ShearIntegration::reduced), 32, true, nearly_none);
-  expect_right("beam, reduced", beam(ShearIntegration::reduced), beam(ShearIntegration::reduced), 32, false, all);
-  // prescribed values do not matter; without bounds all unknowns of the stiff part are counted, and those that B ties
-  // are no sign of locking
-  VariationalInequality coarse = beam(ShearIntegration::reduced)(16), fine = beam(ShearIntegration::reduced)(32);
+  expect_right("beam, full", beam(ShearIntegration::full), beam(ShearIntegration::reduced), 32,
+               true, nearly_none);
+  expect_right("beam, reduced", beam(ShearIntegration::reduced), beam(ShearIntegration::reduced),
+               32, false, all);
+  // prescribed values do not matter; without bounds all unknowns of the stiff part are counted, and
+  // those that B ties are no sign of locking
+  VariationalInequality coarse = beam(ShearIntegration::reduced)(16),
+                        fine = beam(ShearIntegration::reduced)(32);
   const double softening = diagnose_locking(coarse, fine).refinement_softening;
   for (VariationalInequality* problem : {&coarse, &fine}) problem->dirichlet_values.setOnes();
   EXPECT_EQ(diagnose_locking(coarse, fine).refinement_softening, softening);
   for (VariationalInequality* problem : {&coarse, &fine}) problem->bounds = {};
   EXPECT_FALSE(diagnose_locking(coarse, fine).locks());
-  const auto plate = [](const Element& deflection, const Element& rotation, ShearRule shear) -> Problem {
+  const auto plate = [](const Element& deflection, const Element& rotation,
+                        ShearRule shear) -> Problem {
     return [=, &deflection, &rotation](int cells) {
       TriangleMesh mesh = unstructured_mesh(cells, {0});
       for (int e = 0; e < mesh.edge_count(); ++e)
@@ -126,14 +142,16 @@ TEST(LockingDiagnosis, IsRightForBeamAndPlate) {
   };
   const Problem right = plate(p1(), p1(), ShearRule::edges);
   expect_right("plate P1", plate(p1(), p1(), ShearRule::exact), right, 16, true, nearly_none);
-  expect_right("plate P1, one point", plate(p1(), p1(), ShearRule::mean), right, 16, true, nearly_none);
+  expect_right("plate P1, one point", plate(p1(), p1(), ShearRule::mean), right, 16, true,
+               nearly_none);
   expect_right("plate Duran-Liberman", right, right, 16, false, all);
-  expect_right("plate Arnold-Falk", plate(crouzeix_raviart(), p1_bubble(), ShearRule::mean), right, 16, false,
-               {0.8, 1.15});
+  expect_right("plate Arnold-Falk", plate(crouzeix_raviart(), p1_bubble(), ShearRule::mean), right,
+               16, false, {0.8, 1.15});
 }
 
 /// A block with a coating, nu = 0.3, whose top is pushed down on a round punch.
-VariationalInequality coating(const TriangleMesh& mesh, const Element& of_x, const Element& of_y, double t) {
+VariationalInequality coating(const TriangleMesh& mesh, const Element& of_x, const Element& of_y,
+                              double t) {
   const Space x(mesh, of_x), y(mesh, of_y);
   Coating scene;
   scene.thickness = t;
@@ -141,8 +159,8 @@ VariationalInequality coating(const TriangleMesh& mesh, const Element& of_x, con
   return assemble(scene, VectorSpace{x, y});
 }
 
-// The contact force at t = 1e-6 is the measure; t = 0 in the rows is what the diagnosis is asked for. With u_x
-// Crouzeix-Raviart and u_y P1 the kernel grows fast, and none of it moves a bound.
+// The contact force at t = 1e-6 is the measure; t = 0 in the rows is what the diagnosis is asked
+// for. With u_x Crouzeix-Raviart and u_y P1 the kernel grows fast, and none of it moves a bound.
 TEST(LockingDiagnosis, IsRightForACoatingInPlaneStrain) {
   const Element &cr = crouzeix_raviart(), &one = p1();
   struct Case {
@@ -160,11 +178,13 @@ TEST(LockingDiagnosis, IsRightForACoatingInPlaneStrain) {
   };
   const Case right{"P2 columns", true, p2(), p2(), false};
   const double reference = force(right);
-  for (const Case& c : {right, Case{"P1 columns", true, one, one, false}, Case{"P1 / P1", false, one, one, true},
-                        Case{"P2 / P2", false, p2(), p2(), true}, Case{"CR / CR", false, cr, cr, false},
-                        Case{"P1 / CR", false, one, cr, false}, Case{"CR / P1", false, cr, one, true}}) {
-    const LockingDiagnosis found = diagnose_locking(coating(mesh(c.columns, cells / 2), c.x, c.y, 0),
-                                                    coating(mesh(c.columns, cells), c.x, c.y, 0));
+  for (const Case& c :
+       {right, Case{"P1 columns", true, one, one, false}, Case{"P1 / P1", false, one, one, true},
+        Case{"P2 / P2", false, p2(), p2(), true}, Case{"CR / CR", false, cr, cr, false},
+        Case{"P1 / CR", false, one, cr, false}, Case{"CR / P1", false, cr, one, true}}) {
+    const LockingDiagnosis found =
+        diagnose_locking(coating(mesh(c.columns, cells / 2), c.x, c.y, 0),
+                         coating(mesh(c.columns, cells), c.x, c.y, 0));
     EXPECT_EQ(found.locks(), c.locks) << c.name << ": " << found.text();
     const double off = force(c) / reference - 1;
     fmt::print("| coating {} | {} | force {:+.1f} % |\n", c.name, found.text(), 100 * off);
@@ -172,10 +192,12 @@ TEST(LockingDiagnosis, IsRightForACoatingInPlaneStrain) {
   }
 }
 
-/// (23) in three dimensions: cubes cut in six tetrahedra (Kuhn), inner vertices moved by up to `moved` h; P1 or
-/// Crouzeix-Raviart (an unknown per face).
+/// (23) in three dimensions: cubes cut in six tetrahedra (Kuhn), inner vertices moved by up to
+/// `moved` h; P1 or Crouzeix-Raviart (an unknown per face).
 VariationalInequality tetrahedra(int n, double moved, bool nonconforming, double compliance) {
-  const auto vertex = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };  // k from z = -1 up
+  const auto vertex = [n](int i, int j, int k) {
+    return (k * (n + 1) + j) * (n + 1) + i;
+  };  // k from z = -1 up
   std::vector<Eigen::Vector3d> at;
   std::mt19937 random(7);
   const auto step = [&] { return moved / n * (2.0 * random() / std::mt19937::max() - 1); };
@@ -193,7 +215,8 @@ VariationalInequality tetrahedra(int n, double moved, bool nonconforming, double
   std::vector<Eigen::Triplet<double>> a1, b;
   std::vector<double> m, loads;
   std::vector<std::pair<int, double>> load;
-  const std::array<std::array<int, 3>, 6> orders{{{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+  const std::array<std::array<int, 3>, 6> orders{
+      {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
   for (int k = 0; k < 2 * n; ++k)
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
@@ -209,7 +232,8 @@ VariationalInequality tetrahedra(int n, double moved, bool nonconforming, double
           std::array<int, 4> unknown = corner;
           if (nonconforming)
             for (int s = 0; s < 4; ++s) {
-              std::array<int, 3> face{corner[(s + 1) % 4], corner[(s + 2) % 4], corner[(s + 3) % 4]};
+              std::array<int, 3> face{corner[(s + 1) % 4], corner[(s + 2) % 4],
+                                      corner[(s + 3) % 4]};
               std::sort(face.begin(), face.end());
               const auto [place, fresh] = faces.emplace(face, static_cast<int>(places.size()));
               if (fresh) places.emplace_back((at[face[0]] + at[face[1]] + at[face[2]]) / 3);
@@ -219,8 +243,10 @@ VariationalInequality tetrahedra(int n, double moved, bool nonconforming, double
           const bool body = k >= n;
           for (int r = 0; r < 4; ++r) {
             for (int s = 0; s < 4; ++s)
-              a1.emplace_back(unknown[r], unknown[s],
-                              volume * gradient.col(r).head(body ? 3 : 2).dot(gradient.col(s).head(body ? 3 : 2)));
+              a1.emplace_back(
+                  unknown[r], unknown[s],
+                  volume *
+                      gradient.col(r).head(body ? 3 : 2).dot(gradient.col(s).head(body ? 3 : 2)));
             if (!body) b.emplace_back(static_cast<int>(m.size()), unknown[r], gradient(2, r));
           }
           if (!body) m.push_back(volume);
@@ -241,8 +267,10 @@ VariationalInequality tetrahedra(int n, double moved, bool nonconforming, double
     if (side) problem.dirichlet_dofs.push_back(i);
     if (!side && x(2) < -1 + 1e-12) bottom.push_back(i);
   }
-  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
-  problem.bounds = Bounds::lower_on(bottom, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bottom.size())));
+  problem.dirichlet_values =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
+  problem.bounds =
+      Bounds::lower_on(bottom, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bottom.size())));
   return problem;
 }
 
@@ -253,7 +281,8 @@ TEST(LockingDiagnosis, IsRightForTetrahedra) {
   const Problem right = method(0, false);
   expect_right("tetrahedra P1, cubes", right, right, 8, false, all);
   expect_right("tetrahedra P1, moved", method(0.2, false), right, 8, true, nearly_none);
-  // the bounds of Crouzeix-Raviart lie nearer to the clamped sides: the same force moves them less, cubes or not
+  // the bounds of Crouzeix-Raviart lie nearer to the clamped sides: the same force moves them less,
+  // cubes or not
   expect_right("tetrahedra CR, cubes", method(0, true), right, 8, false, {0.6, 1});
   expect_right("tetrahedra CR, moved", method(0.2, true), right, 8, false, {0.6, 1});
 }

@@ -14,7 +14,8 @@ TEST(Solve, WarnsWhereTheElementLocksAndNowhereElse) {
     ASSERT_TRUE(locked.locking);
     EXPECT_EQ(locked.warning, locked.locking->warning);
     EXPECT_TRUE(locked.warning.starts_with("P1 locks in this layer")) << locked.warning;
-    EXPECT_TRUE(locked.solution.warning.empty()) << "the discrete problem is solved: " << locked.solution.warning;
+    EXPECT_TRUE(locked.solution.warning.empty())
+        << "the discrete problem is solved: " << locked.solution.warning;
     const Result free = solve(stiff_scene(epsilon), Space(conforming, crouzeix_raviart()));
     ASSERT_TRUE(free.locking);
     EXPECT_EQ(free.warning, "");
@@ -44,7 +45,8 @@ TEST(Solve, TakesOptionsOrAnotherSolver) {
   ActiveSetOptions impatient;
   impatient.corrections.max_corrections = 0;
   EXPECT_THROW(solve(scene, space, impatient), NotConverged);
-  const Result result = solve(scene, space, [](const VariationalInequality& problem) { return uzawa(problem); });
+  const Result result =
+      solve(scene, space, [](const VariationalInequality& problem) { return uzawa(problem); });
   EXPECT_EQ(result.solution.solver, uzawa(result.problem).solver);
   EXPECT_LT(relative_difference(result.solution.u, solve(scene, space).solution.u), 1e-8);
 }
@@ -59,11 +61,13 @@ TEST(Solve, PutsTheWarningOfTheLayerBeforeThatOfTheSolver) {
   const Space space(unstructured_mesh(8), p1());
   const Result locked = solve(stiff_scene(1e-6), space, doubtful);
   EXPECT_EQ(locked.warning, locked.locking->warning + "; a doubt");
-  EXPECT_EQ(solve(stiff_scene(1e-6), Space(space, crouzeix_raviart()), doubtful).warning, "a doubt");
+  EXPECT_EQ(solve(stiff_scene(1e-6), Space(space, crouzeix_raviart()), doubtful).warning,
+            "a doubt");
 }
 
 TEST(Solve, RefusesAMeshWithoutAFreeUnknown) {
-  expect_refused([] { solve(Scene({paper_load}), Space(structured_mesh(1, {0}), p1())); }, "every unknown is fixed");
+  expect_refused([] { solve(Scene({paper_load}), Space(structured_mesh(1, {0}), p1())); },
+                 "every unknown is fixed");
 }
 
 }  // namespace antilock::test::analysis_test::solve_test

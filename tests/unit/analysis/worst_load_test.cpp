@@ -1,5 +1,5 @@
-// The supremum of the error over a ball of loads: the exact side in closed form, the quadratic form of the error, its
-// largest eigenvalue.
+// The supremum of the error over a ball of loads: the exact side in closed form, the quadratic form
+// of the error, its largest eigenvalue.
 #include "antilock/analysis/worst_load.hpp"
 #include "antilock/analysis/load_ascent.hpp"
 #include "antilock/core/dense.hpp"
@@ -25,15 +25,16 @@ Eigen::MatrixXd matrix_of(ErrorForm& form) {
   return e;
 }
 
-// a(u, u) = (f, S f) = -2 J(u). The load constant in y falls like 1/m in the modes, its work like m^-4: 40 waves leave
-// out less than 1e-4 of it.
+// a(u, u) = (f, S f) = -2 J(u). The load constant in y falls like 1/m in the modes, its work like
+// m^-4: 40 waves leave out less than 1e-4 of it.
 TEST(LoadModes, WorkIsTheTruths) {
   const LoadModes modes(40);
   for (const double epsilon : {1.0, 0.1, 1e-6, 1e-20, 0.0})
     for (const int k : {1, 2, 5}) {
       const Eigen::VectorXd f = modes.constant_in_y(k, 10);
       const ExactSolution exact(SineLoad{{{k, {10}}}}, epsilon, false, 10);
-      EXPECT_NEAR(f.dot(modes.response(f, epsilon)) / (-2 * exact.energy()), 1, 1e-4) << epsilon << " " << k;
+      EXPECT_NEAR(f.dot(modes.response(f, epsilon)) / (-2 * exact.energy()), 1, 1e-4)
+          << epsilon << " " << k;
     }
 }
 
@@ -48,11 +49,13 @@ TEST(LoadModes, AreOrthonormal) {
         values(l) = modes.value(Eigen::VectorXd::Unit(modes.size(), l), points(i), points(j));
       gram += weights(i) * weights(j) * values * values.transpose();
     }
-  EXPECT_LT((gram - Eigen::MatrixXd::Identity(modes.size(), modes.size())).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((gram - Eigen::MatrixXd::Identity(modes.size(), modes.size())).cwiseAbs().maxCoeff(),
+            1e-12);
 }
 
-// The load 2 sin(k pi x) cos(pi y / 2), its cosine as a polynomial (1e-8), measured point by point against the sine
-// series: for a polynomial V_h exact but for the quadrature of the error (degree 12 or so) and the table (1e-6).
+// The load 2 sin(k pi x) cos(pi y / 2), its cosine as a polynomial (1e-8), measured point by point
+// against the sine series: for a polynomial V_h exact but for the quadrature of the error (degree
+// 12 or so) and the table (1e-6).
 TEST(ErrorForm, IsTheMeasuredErrorOfEveryElement) {
   const TriangleMesh mesh = unstructured_mesh(6);
   for (const Element* element : {&p1(), &p2(), &p3(), &crouzeix_raviart()}) {
@@ -62,18 +65,21 @@ TEST(ErrorForm, IsTheMeasuredErrorOfEveryElement) {
       for (const int k : {1, 3}) {
         form.set_epsilon(epsilon);
         Eigen::VectorXd f = Eigen::VectorXd::Zero(form.modes().size());
-        for (int j = 0; j < f.size(); ++j) f(j) = form.modes().k()(j) == k && form.modes().m()(j) == 1;
+        for (int j = 0; j < f.size(); ++j)
+          f(j) = form.modes().k()(j) == k && form.modes().m()(j) == 1;
         const SineLoad load = load_of_modes(Eigen::VectorXd::Unit(k, k - 1));
         const ExactTable table(ExactSolution(load, epsilon, false, 12), 1 << 11);
-        const Solution solution = active_set(assemble(Scene(Body{load}, StiffLayer{epsilon}), space));
+        const Solution solution =
+            active_set(assemble(Scene(Body{load}, StiffLayer{epsilon}), space));
         const double measured = measure_errors(space, solution, epsilon, reference(table)).energy;
-        EXPECT_NEAR(form.error(f) / measured, 1, 1e-3) << element->name() << " " << epsilon << " " << k;
+        EXPECT_NEAR(form.error(f) / measured, 1, 1e-3)
+            << element->name() << " " << epsilon << " " << k;
       }
   }
 }
 
-// A mesh so small that nothing has to be iterated: S - F' A^-1 F with A summed and inverted, the load of each mode by
-// load_vector (degree 5 and more on triangles of 1/4 of a wave: 1e-3 in E).
+// A mesh so small that nothing has to be iterated: S - F' A^-1 F with A summed and inverted, the
+// load of each mode by load_vector (degree 5 and more on triangles of 1/4 of a wave: 1e-3 in E).
 TEST(ErrorForm, ItsLargestIsTheDenseEigenvalue) {
   const TriangleMesh mesh = unstructured_mesh(3);
   for (const Element* element : {&p1(), &p4()})
@@ -83,8 +89,8 @@ TEST(ErrorForm, ItsLargestIsTheDenseEigenvalue) {
       form.set_epsilon(epsilon);
       const VariationalInequality problem =
           assemble(Scene(Body{[](double, double) { return 0.0; }}, StiffLayer{epsilon}), space);
-      Eigen::MatrixXd a =
-          Eigen::MatrixXd(problem.a1) + test::gram(Eigen::MatrixXd(problem.b), problem.m) / (epsilon * epsilon);
+      Eigen::MatrixXd a = Eigen::MatrixXd(problem.a1) +
+                          test::gram(Eigen::MatrixXd(problem.b), problem.m) / (epsilon * epsilon);
       for (const int i : problem.dirichlet_dofs) {
         a.row(i).setZero();
         a.col(i).setZero();
@@ -94,14 +100,16 @@ TEST(ErrorForm, ItsLargestIsTheDenseEigenvalue) {
       Eigen::MatrixXd dense(n, n), u(space.size(), n), loads(space.size(), n);
       for (int j = 0; j < n; ++j) {
         const Eigen::VectorXd one = Eigen::VectorXd::Unit(n, j);
-        loads.col(j) = load_vector(space, [&](double x, double y) { return form.modes().value(one, x, y); });
+        loads.col(j) =
+            load_vector(space, [&](double x, double y) { return form.modes().value(one, x, y); });
         for (const int i : problem.dirichlet_dofs) loads(i, j) = 0;
         u.col(j) = test::lu_solve(a, loads.col(j));
         dense.col(j) = form.modes().response(one, epsilon);
       }
       dense -= test::product(loads.transpose(), u);
       const double largest = symmetric_eigenvalues(0.5 * (dense + dense.transpose())).maxCoeff();
-      EXPECT_NEAR(std::pow(form.worst(1e-6).error, 2) / largest, 1, 0.01) << element->name() << " " << epsilon;
+      EXPECT_NEAR(std::pow(form.worst(1e-6).error, 2) / largest, 1, 0.01)
+          << element->name() << " " << epsilon;
     }
 }
 
@@ -114,7 +122,8 @@ TEST(ErrorForm, IsSymmetricAndNowhereNegative) {
       form.set_epsilon(epsilon);
       const Eigen::MatrixXd e = matrix_of(form);
       const Eigen::VectorXd values = symmetric_eigenvalues(0.5 * (e + e.transpose()));
-      // the solves stop at 1e-10, and S is 0.1; CR's interpolant and loads are two quadratures of waves, 1e-8
+      // the solves stop at 1e-10, and S is 0.1; CR's interpolant and loads are two quadratures of
+      // waves, 1e-8
       EXPECT_LT((e - e.transpose()).cwiseAbs().maxCoeff(), 1e-8) << element->name();
       EXPECT_GT(values.minCoeff(), -1e-7) << element->name();
       const WorstLoad worst = form.worst(1e-6);
@@ -125,8 +134,9 @@ TEST(ErrorForm, IsSymmetricAndNowhereNegative) {
   }
 }
 
-// dim G_h = p - 1 on the layer: of the first p waves one combination is lost whole, however fine the mesh. P1 and P2
-// keep functions of one symmetry each, so that the bound by the kernel's dimension is the limit.
+// dim G_h = p - 1 on the layer: of the first p waves one combination is lost whole, however fine
+// the mesh. P1 and P2 keep functions of one symmetry each, so that the bound by the kernel's
+// dimension is the limit.
 TEST(WorstLoad, LimitsByDegreeAndWidths) {
   for (const int p : {1, 2}) EXPECT_NEAR(loss_of_degree(p) / loss_of_wave(p), 1, 1e-9) << p;
   for (const int p : {3, 4, 5}) {
@@ -137,13 +147,15 @@ TEST(WorstLoad, LimitsByDegreeAndWidths) {
   const auto [points, weights] = gauss_rule(20);
   const Eigen::ArrayXd at = pi * (1 - points.array()), psi = at.sinh() / std::sinh(pi),
                        slope = pi * at.cosh() / std::sinh(pi), w = weights.array();
-  const double square = (w * psi.square()).sum(), energy = (w * slope.square()).sum() + pi * pi * (square + 1);
+  const double square = (w * psi.square()).sum(),
+               energy = (w * slope.square()).sum() + pi * pi * (square + 1);
   EXPECT_NEAR(loss_of_wave(1), std::sqrt(square / energy), 1e-14);
   // k^2 + m^2 in order: 2, 5, 5, 8, 10, 10, 13
   EXPECT_NEAR(kolmogorov_width(0), 1 / (pi * std::sqrt(2)), 1e-15);
   EXPECT_NEAR(kolmogorov_width(2), 1 / (pi * std::sqrt(5)), 1e-15);
   EXPECT_NEAR(kolmogorov_width(6), 1 / (pi * std::sqrt(13)), 1e-15);
-  // Weyl: n = pi r^2 / 4 - r of them have k^2 + m^2 <= r^2, up to terms that grow more slowly than r
+  // Weyl: n = pi r^2 / 4 - r of them have k^2 + m^2 <= r^2, up to terms that grow more slowly than
+  // r
   EXPECT_NEAR(1 / (pi * kolmogorov_width(10000)), std::sqrt(40000 / pi) + 2 / pi, 1);
 }
 

@@ -45,7 +45,8 @@ TEST(WriteFile, AFailureHalfWayLeavesTheOldFileAndNothingElse) {
 TEST(WriteFile, ADeviceIsNotReplacedByAFile) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-  EXPECT_NE(refusal([&] { write_file(folder / "pipe", [](std::ostream&) {}); }).find("a pipe"), std::string::npos);
+  EXPECT_NE(refusal([&] { write_file(folder / "pipe", [](std::ostream&) {}); }).find("a pipe"),
+            std::string::npos);
   EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
 }
 
@@ -69,7 +70,8 @@ TEST(WriteFile, PathsThatCannotBeWrittenAreRefusedInOneLine) {
   fs::create_directory(folder / "folder");
   for (const char* bad : {"file/below.csv", "file/deep/below.csv", "folder", "folder/"}) {
     const fs::path path = folder / bad;
-    const std::string message = refusal([&] { write_file(path, [](std::ostream& out) { out << 1; }); });
+    const std::string message =
+        refusal([&] { write_file(path, [](std::ostream& out) { out << 1; }); });
     EXPECT_EQ(message.rfind(path.string() + ": cannot be written: ", 0), 0U) << message;
     EXPECT_EQ(message.find('\n'), message.npos);
   }
@@ -84,17 +86,21 @@ TEST(WriteFile, NumbersOnTheStreamReadBackAsTheSameDouble) {
   EXPECT_EQ(std::stod(contents(folder / "x")), third);
 }
 
-/// How the child process that runs `act` ended, sent `signal` as soon as it says that it is in the middle (0: never).
-int end_of_child(int signal, const std::function<void(const std::function<void()>& in_the_middle)>& act) {
+/// How the child process that runs `act` ended, sent `signal` as soon as it says that it is in the
+/// middle (0: never).
+int end_of_child(int signal,
+                 const std::function<void(const std::function<void()>& in_the_middle)>& act) {
   std::array<int, 2> pipe{};
   EXPECT_EQ(::pipe(pipe.data()), 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    if (signal != 0) std::signal(signal, SIG_DFL);  // a shell lets what it starts in the background ignore SIGINT
+    if (signal != 0)
+      std::signal(signal, SIG_DFL);  // a shell lets what it starts in the background ignore SIGINT
     try {
       act([&] {
         (void)!::write(pipe[1], "x", 1);
-        for (int i = 0; i < 20; ++i) ::usleep(10'000);  // a fifth of a second, in which the signal comes
+        for (int i = 0; i < 20; ++i)
+          ::usleep(10'000);  // a fifth of a second, in which the signal comes
       });
     } catch (const std::exception&) {
       ::_exit(9);
@@ -122,7 +128,8 @@ void write_two(const fs::path& folder, const std::function<void()>& in_the_middl
 TEST(Interrupted, AFolderBeingWrittenLeavesNothingAndTheProcessEndsByItsSignal) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
-    const int status = end_of_child(signal, [&](const auto& middle) { write_two(folder / "new/results", middle); });
+    const int status = end_of_child(
+        signal, [&](const auto& middle) { write_two(folder / "new/results", middle); });
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
     EXPECT_TRUE(fs::is_empty(folder.path()));
   }
@@ -159,9 +166,11 @@ TEST(Interrupted, ASignalThatTheProgramIgnoresStopsNothing) {
 TEST(Interrupted, DraftsOfOthersAreNeverAdopted) {
   const TemporaryFolder folder;  // processes of two containers have the same numbers
   const std::string number = std::to_string(::getpid());
-  write_file(folder / (".draft-" + number + "/stray"), [](std::ostream& out) { out << "another's"; });
-  write_folder(folder.path(),
-               [](const fs::path& draft) { write_file(draft / "mine", [](std::ostream& out) { out << "mine"; }); });
+  write_file(folder / (".draft-" + number + "/stray"),
+             [](std::ostream& out) { out << "another's"; });
+  write_folder(folder.path(), [](const fs::path& draft) {
+    write_file(draft / "mine", [](std::ostream& out) { out << "mine"; });
+  });
   EXPECT_FALSE(fs::exists(folder / "stray"));
   EXPECT_EQ(contents(folder / (".draft-" + number + "/stray")), "another's");
 }

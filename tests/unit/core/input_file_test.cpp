@@ -36,7 +36,8 @@ TEST(InputFile, ThatMayNeverEndIsRefused) {
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   std::filesystem::create_directory(folder / "folder");
   std::filesystem::create_symlink("/dev/zero", folder / "link");
-  for (const fs::path& path : {folder / "pipe", folder / "folder", folder / "link", fs::path("/dev/zero")})
+  for (const fs::path& path :
+       {folder / "pipe", folder / "folder", folder / "link", fs::path("/dev/zero")})
     EXPECT_EQ(refusal([&] { open_file(path, "name", "a file"); }),
               "name: is a folder, a device or a pipe; accepted: a file")
         << path;

@@ -1,4 +1,5 @@
-// What a computation may take: limits of the process and of its control groups are seen before they are reached.
+// What a computation may take: limits of the process and of its control groups are seen before they
+// are reached.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -53,8 +54,8 @@ TEST(Memory, ThatNoProcessCanHaveIsRefusedInOneLine) {
   EXPECT_NO_THROW(require_memory(1 << 20, "solve"));
 }
 
-// OpenBLAS #5289: it asks for its buffer again and again. In a child, whose limit leaves no room for it: where the solve does
-// not throw, it never ends, and the alarm ends it.
+// OpenBLAS #5289: it asks for its buffer again and again. In a child, whose limit leaves no room
+// for it: where the solve does not throw, it never ends, and the alarm ends it.
 TEST(Memory, ThatTheBlasCannotHaveEndsASolve) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "AddressSanitizer maps terabytes";

@@ -10,7 +10,8 @@ TEST(ExactPlate, SolvesItsEquations) {
     const double c = exact.contact_radius();
     EXPECT_NEAR(exact.deflection(1), 0, 1e-12);
     EXPECT_NEAR(exact.deflection(c * (1 + 1e-12)), -1, 1e-9);
-    // w'(c) = 0, by three values that leave out the second derivative; the third adds some 1e-10 of itself
+    // w'(c) = 0, by three values that leave out the second derivative; the third adds some 1e-10 of
+    // itself
     const auto w = [&](double way) { return exact.deflection(c * (1 + way)); };
     EXPECT_NEAR((4 * w(1e-5) - w(2e-5) - 3 * w(1e-12)) / (2e-5 * c), 0, 1e-5);
     EXPECT_GT(exact.contact_force(), 0);

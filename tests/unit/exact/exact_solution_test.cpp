@@ -1,5 +1,5 @@
-// The truth is checked from outside: against the differential equations, the conditions on Sigma and Gamma_C, closed
-// forms, refinement, and the values that an independent script gave.
+// The truth is checked from outside: against the differential equations, the conditions on Sigma
+// and Gamma_C, closed forms, refinement, and the values that an independent script gave.
 #include "antilock/exact/exact_solution.hpp"
 #include "antilock/exact/contact_line.hpp"
 #include "antilock/exact/exact_norms.hpp"
@@ -13,8 +13,8 @@ namespace antilock::test::exact_test::exact_solution_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr int moderate = 13;  // 2^13 points: enough where the test is about structure, not digits
-const std::vector<double> every_epsilon = {1, 0.3, 1e-2, 1e-4, 1e-8, 1e-20, std::numeric_limits<double>::denorm_min(),
-                                           0};
+const std::vector<double> every_epsilon = {
+    1, 0.3, 1e-2, 1e-4, 1e-8, 1e-20, std::numeric_limits<double>::denorm_min(), 0};
 
 SineLoad rich_load() { return {{{1, {0, -30}}, {3, {-20, 5, 9}}, {8, {100}}}}; }
 SineLoad lifting_load() { return {{{1, {10}}}}; }
@@ -38,7 +38,8 @@ TEST(SineTransform, SumsSinesAndCosinesAndInverts) {
   cosine_points(even);
   for (int j = 0; j <= 64; ++j) {
     const double x = j / 64.0;
-    EXPECT_NEAR(points(j), 2 * std::sin(pi * x) - std::sin(5 * pi * x) + 0.5 * std::sin(63 * pi * x), 1e-13);
+    EXPECT_NEAR(points(j),
+                2 * std::sin(pi * x) - std::sin(5 * pi * x) + 0.5 * std::sin(63 * pi * x), 1e-13);
     EXPECT_NEAR(even(j), 3 + std::cos(7 * pi * x) - 2 * std::cos(64 * pi * x), 1e-13);
   }
   modes_from_points(points);
@@ -51,7 +52,8 @@ TEST(LoadResponse, SolvesItsEquationWithBothEndsHeld) {
   EXPECT_NEAR(response.value(0), 0, 1e-16);
   EXPECT_NEAR(response.value(1), 0, 1e-16);
   EXPECT_DOUBLE_EQ(response.pull(), response.slope(0));
-  double pull = 0, work = 0;  // their integrals, by the midpoint rule: error h^2 / 24 times second derivatives below 40
+  double pull = 0, work = 0;  // their integrals, by the midpoint rule: error h^2 / 24 times second
+                              // derivatives below 40
   const int n = 20000;
   for (int i = 0; i < n; ++i) {
     const double y = (i + 0.5) / n;
@@ -61,9 +63,12 @@ TEST(LoadResponse, SolvesItsEquationWithBothEndsHeld) {
   EXPECT_NEAR(response.pull(), pull, 1e-8);
   EXPECT_NEAR(response.work(), work, 1e-8);
   for (const double y : {0.1, 0.5, 0.93}) {
-    const double curvature = second_difference([&](double t) { return response.value(t); }, y, 1e-3);
-    EXPECT_NEAR(-curvature + a * a * response.value(y), response.force(y), 1e-5);  // h^2 / 12 G'''' with G'''' < 110
-    EXPECT_NEAR(difference([&](double t) { return response.value(t); }, y, 1e-4), response.slope(y), 1e-7);
+    const double curvature =
+        second_difference([&](double t) { return response.value(t); }, y, 1e-3);
+    EXPECT_NEAR(-curvature + a * a * response.value(y), response.force(y),
+                1e-5);  // h^2 / 12 G'''' with G'''' < 110
+    EXPECT_NEAR(difference([&](double t) { return response.value(t); }, y, 1e-4), response.slope(y),
+                1e-7);
   }
 }
 
@@ -79,7 +84,8 @@ TEST(Symbols, AreContinuousDownToEpsilonZero) {
     const Symbols limit(k, 0);
     EXPECT_DOUBLE_EQ(limit.stiffness, limit.body + limit.a * limit.a);
     for (const double epsilon : {1e-9, 1e-20, std::numeric_limits<double>::denorm_min()}) {
-      const Symbols near(k, epsilon);  // mu = epsilon coth(a) tanh(kappa) and kappa^2 are below 1e-10
+      const Symbols near(k,
+                         epsilon);  // mu = epsilon coth(a) tanh(kappa) and kappa^2 are below 1e-10
       EXPECT_NEAR(near.stiffness / limit.stiffness, 1, 1e-10);
       EXPECT_NEAR(near.trace, 1, 1e-10);
       EXPECT_NEAR(near.lift, 0, 1e-10);
@@ -89,7 +95,8 @@ TEST(Symbols, AreContinuousDownToEpsilonZero) {
 }
 
 TEST(ContactLine, SolvesTheObstacleProblemOfAString) {
-  // D = a^2 makes it -c'' = q + lambda, c >= 0: a string under q = sin(pi x) - 6 sin(3 pi x), which is even about 1/2.
+  // D = a^2 makes it -c'' = q + lambda, c >= 0: a string under q = sin(pi x) - 6 sin(3 pi x), which
+  // is even about 1/2.
   const int n = 256;
   Eigen::VectorXd stiffness(n + 1), load = Eigen::VectorXd::Zero(n + 1);
   for (int k = 0; k <= n; ++k) stiffness(k) = std::pow(std::max(k, 1) * pi, 2);
@@ -110,8 +117,9 @@ TEST(ContactLine, SolvesTheObstacleProblemOfAString) {
 // ---- The linear problem.
 
 TEST(TruthWithoutContact, IsTheClosedFormOfOneWave) {
-  // u = f/a^2 (1 - cosh(a(y-1/2)) / cosh(a/2)) + w sinh(a(1-y)) / sinh(a) in the body, w cosh(kappa(1+y)) / cosh(kappa)
-  // in the layer, where the fluxes G'(0) - T w and (a/epsilon) tanh(kappa) w agree; at epsilon = 0 that is a^2 w, Ventcel's.
+  // u = f/a^2 (1 - cosh(a(y-1/2)) / cosh(a/2)) + w sinh(a(1-y)) / sinh(a) in the body, w
+  // cosh(kappa(1+y)) / cosh(kappa) in the layer, where the fluxes G'(0) - T w and (a/epsilon)
+  // tanh(kappa) w agree; at epsilon = 0 that is a^2 w, Ventcel's.
   for (const int k : {1, 2, 8})
     for (const double epsilon : {1.0, 0.3, 1e-3, 0.0}) {
       const ExactSolution exact({{{k, {3}}}}, epsilon, false);
@@ -166,15 +174,18 @@ INSTANTIATE_TEST_SUITE_P(EveryEpsilon, TruthEquations, testing::ValuesIn(every_e
 TEST_P(TruthEquations, HoldInTheBody) {
   const SineLoad load = rich_load();
   const ExactSolution exact(load, GetParam(), true, moderate);
-  const double h = 1e-3;  // h^2 / 12 times fourth derivatives up to (8 pi)^2 100: 5e-3 against terms of size 100
+  const double h =
+      1e-3;  // h^2 / 12 times fourth derivatives up to (8 pi)^2 100: 5e-3 against terms of size 100
   for (const double x : {0.21, 0.55, 0.8})
     for (const double y : {0.2, 0.5, 0.9}) {
       const double u_xx = second_difference([&](double t) { return exact.value(t, y); }, x, h);
       const double u_yy = second_difference([&](double t) { return exact.value(x, t); }, y, h);
       EXPECT_NEAR(-u_xx - u_yy, load(x, y), 1e-2);
       EXPECT_NEAR(exact.d_xx(x, y), u_xx, 1e-2);
-      EXPECT_NEAR(exact.gradient(x, y).x(), difference([&](double t) { return exact.value(t, y); }, x, h), 1e-3);
-      EXPECT_NEAR(exact.gradient(x, y).y(), difference([&](double t) { return exact.value(x, t); }, y, h), 1e-3);
+      EXPECT_NEAR(exact.gradient(x, y).x(),
+                  difference([&](double t) { return exact.value(t, y); }, x, h), 1e-3);
+      EXPECT_NEAR(exact.gradient(x, y).y(),
+                  difference([&](double t) { return exact.value(x, t); }, y, h), 1e-3);
     }
 }
 
@@ -186,7 +197,8 @@ TEST_P(TruthEquations, HoldInTheLayer) {
       const double stress_y = difference([&](double t) { return exact.layer_stress(x, t); }, y, h);
       const double u_xx = second_difference([&](double t) { return exact.value(t, y); }, x, h);
       const double u_y = difference([&](double t) { return exact.value(x, t); }, y, h);
-      EXPECT_NEAR(stress_y + u_xx, 0, 1e-3);  // both of size 1 to 2; differences err by h^2 (2 pi)^4 / 12
+      EXPECT_NEAR(stress_y + u_xx, 0,
+                  1e-3);  // both of size 1 to 2; differences err by h^2 (2 pi)^4 / 12
       EXPECT_NEAR(exact.d_xx(x, y), u_xx, 1e-3);
       EXPECT_NEAR(u_y, epsilon * epsilon * exact.layer_stress(x, y), 1e-5);
       EXPECT_DOUBLE_EQ(exact.gradient(x, y).y(), epsilon * epsilon * exact.layer_stress(x, y));
@@ -209,7 +221,8 @@ TEST_P(TruthEquations, DisplacementAndFluxPassThroughSigma) {
   const double below = -1e-13;  // slopes of up to 2 in u, 60 in the stress: 1e-11 covers them
   for (const double x : {0.1, 0.25, 0.5, 0.85}) {
     EXPECT_NEAR(exact.value(x, 0), exact.value(x, below), 1e-11);
-    // the stress of the layer is filtered near the last waves, whose share of the sum on 2^13 points is below 1e-5
+    // the stress of the layer is filtered near the last waves, whose share of the sum on 2^13
+    // points is below 1e-5
     EXPECT_NEAR(exact.gradient(x, 0).y(), exact.layer_stress(x, 0), 1e-5);
     EXPECT_NEAR(exact.layer_stress(x, below), exact.layer_stress(x, 0), 1e-10);
     EXPECT_NEAR(exact.gradient(x, 0).x(), exact.gradient(x, below).x(), 1e-9);
@@ -229,7 +242,9 @@ TEST_P(TruthEquations, ContactIsComplementary) {
       ASSERT_EQ(exact.layer_stress(x, -1), -lambda);
       pressed += lambda / n;
     }
-    EXPECT_GT(pressed, 5e-4);  // its smallest: the rich load at epsilon = 1, whose waves hardly reach Gamma_C
+    EXPECT_GT(
+        pressed,
+        5e-4);  // its smallest: the rich load at epsilon = 1, whose waves hardly reach Gamma_C
     for (const auto& [from, to] : exact.contact_zones()) {
       EXPECT_LE(from, to);
       EXPECT_EQ(exact.value((from + to) / 2, -1), 0);
@@ -239,7 +254,8 @@ TEST_P(TruthEquations, ContactIsComplementary) {
 
 TEST_P(TruthEquations, PressureIsTheLimitOfTheStressFromInside) {
   const ExactSolution exact(paper_sine_load(), GetParam(), true, moderate);
-  for (const double x : {0.1, 0.4, 0.8, 0.9})  // away from the end of contact; 1e-4 inside, p_y is below 60
+  for (const double x :
+       {0.1, 0.4, 0.8, 0.9})  // away from the end of contact; 1e-4 inside, p_y is below 60
     EXPECT_NEAR(exact.layer_stress(x, -1 + 1e-4), -exact.pressure(x), 6e-3);
 }
 
@@ -247,7 +263,8 @@ TEST_P(TruthEquations, EnergyIsMinusHalfTheWorkOfTheLoad) {
   const SineLoad load = rich_load();
   const ExactSolution exact(load, GetParam(), true, moderate);
   const int n = 60;
-  double work = 0;  // midpoint rule, second order: exact in x for these waves, h^2 / 24 times 100 in y
+  double work =
+      0;  // midpoint rule, second order: exact in x for these waves, h^2 / 24 times 100 in y
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const double x = (i + 0.5) / n, y = (j + 0.5) / n;
@@ -263,8 +280,10 @@ TEST(ExactSolution, AtEpsilonZeroItIsTheVentcelSignoriniProblem) {
   for (const double x : {0.1, 0.3, 0.6, 0.68, 0.73, 0.8, 0.95}) {
     const double u_xx = second_difference([&](double t) { return exact.value(t, 0); }, x, h);
     const double d_n = -exact.gradient(x, 0).y();
-    EXPECT_NEAR(d_n - exact.d_xx(x, 0), exact.pressure(x), 1e-4);  // series of u_xx, which jumps at x = 0.702
-    EXPECT_NEAR(d_n - u_xx, exact.pressure(x), 1e-3);              // and differences, independent of any series of it
+    EXPECT_NEAR(d_n - exact.d_xx(x, 0), exact.pressure(x),
+                1e-4);  // series of u_xx, which jumps at x = 0.702
+    EXPECT_NEAR(d_n - u_xx, exact.pressure(x),
+                1e-3);  // and differences, independent of any series of it
   }
   EXPECT_GT(exact.pressure(0.8), 1);
 }
@@ -275,15 +294,17 @@ struct Known {
   double epsilon, contact_from, u_half, u_sigma, u_gamma_c, largest, energy;
 };
 class TruthDigits : public testing::TestWithParam<Known> {};
-// From an independent script (another language, another transform library) on 2^17 points; every digit printed is held.
+// From an independent script (another language, another transform library) on 2^17 points; every
+// digit printed is held.
 INSTANTIATE_TEST_SUITE_P(
     PaperLoad, TruthDigits,
-    testing::Values(Known{1, 0.60818, 0.23689556, 0.12618750, 0.00054134, 0.00054417, -0.4824546},
-                    Known{1e-1, 0.65962, 0.23578044, 0.04715121, 0.04071145, 0.04124271, -0.44424493},
-                    Known{1e-2, 0.69753, 0.23619852, 0.04505664, 0.04498906, 0.04566745, -0.44157558},
-                    Known{1e-4, 0.70196, 0.23620362, 0.04503589, 0.04503588, 0.04571602, -0.44154446},
-                    Known{1e-6, 0.70200, 0.23620362, 0.04503588, 0.04503588, 0.04571603, -0.44154446},
-                    Known{0, 0.70200, 0.23620362, 0.04503588, 0.04503588, 0.04571603, -0.44154446}));
+    testing::Values(
+        Known{1, 0.60818, 0.23689556, 0.12618750, 0.00054134, 0.00054417, -0.4824546},
+        Known{1e-1, 0.65962, 0.23578044, 0.04715121, 0.04071145, 0.04124271, -0.44424493},
+        Known{1e-2, 0.69753, 0.23619852, 0.04505664, 0.04498906, 0.04566745, -0.44157558},
+        Known{1e-4, 0.70196, 0.23620362, 0.04503589, 0.04503588, 0.04571602, -0.44154446},
+        Known{1e-6, 0.70200, 0.23620362, 0.04503588, 0.04503588, 0.04571603, -0.44154446},
+        Known{0, 0.70200, 0.23620362, 0.04503588, 0.04503588, 0.04571603, -0.44154446}));
 
 TEST_P(TruthDigits, MatchAnIndependentComputation) {
   const Known known = GetParam();
@@ -301,16 +322,18 @@ TEST_P(TruthDigits, MatchAnIndependentComputation) {
 
 TEST(ExactSolution, DoublingThePointsSettlesTheValues) {
   for (const double epsilon : {1.0, 1e-2, 0.0}) {
-    const ExactSolution coarse(paper_sine_load(), epsilon, true, 11), middle(paper_sine_load(), epsilon, true, 13),
-        fine(paper_sine_load(), epsilon, true, 15);
+    const ExactSolution coarse(paper_sine_load(), epsilon, true, 11),
+        middle(paper_sine_load(), epsilon, true, 13), fine(paper_sine_load(), epsilon, true, 15);
     double step1 = 0, step2 = 0;
     for (const double x : {0.25, 0.6, 0.72})
       for (const double y : {0.5, 0.0, -0.5, -0.9}) {
         step1 = std::max(step1, std::abs(coarse.value(x, y) - middle.value(x, y)));
         step2 = std::max(step2, std::abs(middle.value(x, y) - fine.value(x, y)));
       }
-    EXPECT_LT(step2, 3e-7);                 // the next two doublings give 8 digits
-    EXPECT_LT(step2, 0.5 * step1 + 1e-10);  // at least first order, whatever the position of the end of contact
+    EXPECT_LT(step2, 3e-7);  // the next two doublings give 8 digits
+    EXPECT_LT(
+        step2,
+        0.5 * step1 + 1e-10);  // at least first order, whatever the position of the end of contact
   }
 }
 
@@ -335,17 +358,21 @@ TEST(ExactSolution, TendsToTheLimitWithEpsilon) {
 }
 
 TEST(TruthDistance, IsTheNormOfTheDifference) {
-  // One wave without contact: u = sin(pi x) times a profile linear in the load, so three times the load is twice as
-  // far.
-  const ExactSolution one({{{1, {2}}}}, 0.3, false), three({{{1, {6}}}}, 0.3, false), none({}, 0.3, false);
+  // One wave without contact: u = sin(pi x) times a profile linear in the load, so three times the
+  // load is twice as far.
+  const ExactSolution one({{{1, {2}}}}, 0.3, false), three({{{1, {6}}}}, 0.3, false),
+      none({}, 0.3, false);
   EXPECT_EQ(h1_distance(one, one), 0);
   EXPECT_NEAR(h1_distance(three, one), 2 * h1_distance(one, none), 1e-12);
-  // int |grad u|^2, with the layer's d/dy u weighted by epsilon^-2, is L(u) = -2 J: at epsilon = 1 without weight. The
-  // rest is int u^2, here by the midpoint rule in y on 400 rows, int sin^2 = 1/2 in x.
+  // int |grad u|^2, with the layer's d/dy u weighted by epsilon^-2, is L(u) = -2 J: at epsilon = 1
+  // without weight. The rest is int u^2, here by the midpoint rule in y on 400 rows, int sin^2 =
+  // 1/2 in x.
   const ExactSolution unit({{{1, {2}}}}, 1, false);
   double square = 0;
-  for (int j = 0; j < 400; ++j) square += 0.5 * std::pow(unit.value(0.5, -1 + (j + 0.5) / 200), 2) / 200;
-  EXPECT_NEAR(h1_distance(unit, none), std::sqrt(square - 2 * unit.energy()), 1e-4 * std::sqrt(square));
+  for (int j = 0; j < 400; ++j)
+    square += 0.5 * std::pow(unit.value(0.5, -1 + (j + 0.5) / 200), 2) / 200;
+  EXPECT_NEAR(h1_distance(unit, none), std::sqrt(square - 2 * unit.energy()),
+              1e-4 * std::sqrt(square));
 }
 
 TEST(TruthDistance, IsTheSameFromEitherSide) {
@@ -356,17 +383,19 @@ TEST(TruthDistance, IsTheSameFromEitherSide) {
 
 TEST(TruthDistance, H2NormIsThatOfOneWaveByDifferences) {
   const ExactSolution exact({{{1, {2}}}}, 0.3, false);
-  // u = g(y) sin(pi x), g by values at x = 1/2: int g^2 (1 + a^2 + a^4) + g'^2 (1 + 2 a^2) + g''^2, times 1/2. Midpoint
-  // rule and differences of step 1/400: 1e-4 of g'' and below.
+  // u = g(y) sin(pi x), g by values at x = 1/2: int g^2 (1 + a^2 + a^4) + g'^2 (1 + 2 a^2) + g''^2,
+  // times 1/2. Midpoint rule and differences of step 1/400: 1e-4 of g'' and below.
   const double a2 = pi * pi, h = 1.0 / 400;
   double norms = 0;
   for (const double from : {0.0, -1.0}) {
     double square = 0;
     for (int j = 0; j < 200; ++j) {
       const double y = from + (j + 0.5) / 200;
-      const double low = exact.value(0.5, y - h), g = exact.value(0.5, y), high = exact.value(0.5, y + h);
+      const double low = exact.value(0.5, y - h), g = exact.value(0.5, y),
+                   high = exact.value(0.5, y + h);
       const double slope = (high - low) / (2 * h), bend = (high - 2 * g + low) / (h * h);
-      square += 0.5 * (g * g * (1 + a2 + a2 * a2) + slope * slope * (1 + 2 * a2) + bend * bend) / 200;
+      square +=
+          0.5 * (g * g * (1 + a2 + a2 * a2) + slope * slope * (1 + 2 * a2) + bend * bend) / 200;
     }
     norms += std::sqrt(square);
   }
@@ -386,12 +415,14 @@ TEST(TruthDistance, SecondDerivativesAreThoseOfTheLoad) {
 }
 
 TEST(TruthDistance, FallsLikeEpsilonToThreeHalves) {
-  // The pressure jumps at the end of contact: u_k is of size k^-3, and wave k feels (epsilon k)^2 up to k = 1/epsilon.
+  // The pressure jumps at the end of contact: u_k is of size k^-3, and wave k feels (epsilon k)^2
+  // up to k = 1/epsilon.
   const ExactSolution limit(paper_sine_load(), 0, true, moderate);
   const auto distance = [&](double epsilon) {
     return h1_distance(ExactSolution(paper_sine_load(), epsilon, true, moderate), limit);
   };
-  EXPECT_NEAR(std::log10(distance(3e-3) / distance(3e-4)), 1.5, 0.1);  // the part of order 2 dies out slowly
+  EXPECT_NEAR(std::log10(distance(3e-3) / distance(3e-4)), 1.5,
+              0.1);  // the part of order 2 dies out slowly
 }
 
 // ---- Hard and broken input.
@@ -421,7 +452,8 @@ TEST(ExactSolution, NoLoadNoDisplacement) {
 }
 
 TEST(ExactSolution, EqualWavesAddUpAndTheSolutionScalesWithTheLoad) {
-  const ExactSolution once(paper_sine_load(), 0.1, true, moderate), split({{{2, {4}}, {2, {6}}}}, 0.1, true, moderate);
+  const ExactSolution once(paper_sine_load(), 0.1, true, moderate),
+      split({{{2, {4}}, {2, {6}}}}, 0.1, true, moderate);
   EXPECT_NEAR(once.value(0.3, -0.5), split.value(0.3, -0.5), 1e-15);
   for (const double factor : {1e-30, 1e30}) {
     const ExactSolution scaled({{{2, {10 * factor}}}}, 0.1, true, moderate);
@@ -432,7 +464,8 @@ TEST(ExactSolution, EqualWavesAddUpAndTheSolutionScalesWithTheLoad) {
 
 TEST(ExactSolution, RefusesWhatItCannotAnswer) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double epsilon : {-1e-3, 1.5, nan}) EXPECT_THROW(ExactSolution(paper_sine_load(), epsilon), Error);
+  for (const double epsilon : {-1e-3, 1.5, nan})
+    EXPECT_THROW(ExactSolution(paper_sine_load(), epsilon), Error);
   for (const int log2_points : {-1, 5, 21})
     EXPECT_THROW(ExactSolution(paper_sine_load(), 0.1, true, log2_points), Error);
   EXPECT_THROW(ExactSolution({{{0, {1}}}}, 0.1), Error);
@@ -460,7 +493,8 @@ TEST(SineLoad, EvaluatesItsTerms) {
 // ---- The table.
 
 class TruthTabulated : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(EveryEpsilon, TruthTabulated, testing::Values(1, 0.1, 1e-3, 1e-5, 1e-20, 0));
+INSTANTIATE_TEST_SUITE_P(EveryEpsilon, TruthTabulated,
+                         testing::Values(1, 0.1, 1e-3, 1e-5, 1e-20, 0));
 
 TEST_P(TruthTabulated, MatchesTheSums) {
   const ExactSolution exact(rich_load(), GetParam(), true, 14);
@@ -476,10 +510,12 @@ TEST_P(TruthTabulated, MatchesTheSums) {
     const double y = std::vector{2 * uniform(random) - 1, near, -near, -1 + near}[i % 4];
     value = std::max(value, std::abs(table.value(x, y) - exact.value(x, y)));
     bool smooth = true;
-    for (const auto& [from, to] : ends) smooth = smooth && std::abs(x - from) > 0.01 && std::abs(x - to) > 0.01;
+    for (const auto& [from, to] : ends)
+      smooth = smooth && std::abs(x - from) > 0.01 && std::abs(x - to) > 0.01;
     if (!smooth) continue;
     gradient = std::max(gradient, (table.gradient(x, y) - exact.gradient(x, y)).norm());
-    if (y <= 0) stress = std::max(stress, std::abs(table.layer_stress(x, y) - exact.layer_stress(x, y)));
+    if (y <= 0)
+      stress = std::max(stress, std::abs(table.layer_stress(x, y) - exact.layer_stress(x, y)));
   }
   EXPECT_LT(value, 2e-8);     // of 0.3
   EXPECT_LT(gradient, 2e-5);  // of 8
@@ -491,7 +527,8 @@ TEST_P(TruthTabulated, IsExactlyTheTruthOnItsEdges) {
   const ExactTable table(exact);
   for (const double x : {0.0, 0.25, 0.5, 1.0})
     for (const double y : {-1.0, 0.0, 1.0}) {
-      EXPECT_NEAR(table.value(x, y), exact.value(x, y), 1e-13);  // points of the table: no interpolation
+      EXPECT_NEAR(table.value(x, y), exact.value(x, y),
+                  1e-13);  // points of the table: no interpolation
       if (y <= 0) {
         EXPECT_NEAR(table.layer_stress(x, y), exact.layer_stress(x, y), 1e-5);
       }

@@ -16,14 +16,16 @@
 
 namespace antilock::test::io_test::write_csv_test {
 
-using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+using Rows =
+    Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 TEST(WriteCsv, EveryDoubleReadsBackBitEqual) {
   const TemporaryFolder folder;
   constexpr int rows = 2000;
   Eigen::MatrixXd table = Eigen::MatrixXd::Random(rows, 3);
   for (int i = 0; i < rows; ++i) table(i, 0) *= std::pow(10.0, i % 600 - 300);
-  table.row(0) << std::numeric_limits<double>::max(), std::numeric_limits<double>::denorm_min(), -0.0;
+  table.row(0) << std::numeric_limits<double>::max(), std::numeric_limits<double>::denorm_min(),
+      -0.0;
   write_csv(folder / "t.csv", {"a", "b", "c"}, table);
   const std::vector<double> back = numbers(folder / "t.csv", "a,b,c\n");
   ASSERT_EQ(back.size(), 3U * rows);

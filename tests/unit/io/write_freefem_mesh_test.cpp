@@ -16,11 +16,13 @@
 
 namespace antilock::test::io_test::write_freefem_mesh_test {
 
-using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+using Rows =
+    Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 TEST(WriteMsh, AMeshComesBackAsItWas) {
   const TemporaryFolder folder;
-  const std::array meshes = {structured_mesh(5), structured_mesh(4, Domain{0}), structured_mesh(3, {}, Diagonal::left),
+  const std::array meshes = {structured_mesh(5), structured_mesh(4, Domain{0}),
+                             structured_mesh(3, {}, Diagonal::left),
                              structured_mesh(4, Domain{0.125}), unstructured_mesh(6)};
   for (const TriangleMesh& mesh : meshes) {
     write_msh(folder / "mesh.msh", mesh);
@@ -36,12 +38,15 @@ TEST(WriteMsh, AMeshComesBackAsItWas) {
 TEST(WriteMsh, NamesTheGroupsThatAreThereAndNoOthers) {
   const TemporaryFolder folder;
   write_msh(folder / "two.msh", structured_mesh(2));
-  EXPECT_NE(contents(folder / "two.msh")
-                .find("5\n1 3 \"sigma\"\n1 4 \"clamped\"\n1 5 \"contact\"\n2 1 \"body\"\n2 2 \"layer\"\n"),
-            std::string::npos);
+  EXPECT_NE(
+      contents(folder / "two.msh")
+          .find(
+              "5\n1 3 \"sigma\"\n1 4 \"clamped\"\n1 5 \"contact\"\n2 1 \"body\"\n2 2 \"layer\"\n"),
+      std::string::npos);
   write_msh(folder / "one.msh", structured_mesh(2, Domain{0}));
-  EXPECT_NE(contents(folder / "one.msh").find("3\n1 4 \"clamped\"\n1 5 \"contact\"\n2 1 \"body\"\n$End"),
-            std::string::npos);
+  EXPECT_NE(
+      contents(folder / "one.msh").find("3\n1 4 \"clamped\"\n1 5 \"contact\"\n2 1 \"body\"\n$End"),
+      std::string::npos);
 }
 
 TEST(WriteFreefemMesh, HoldsTheCountsTheLabelsAndTheSameNumbering) {
@@ -59,7 +64,8 @@ TEST(WriteFreefemMesh, HoldsTheCountsTheLabelsAndTheSameNumbering) {
   const Eigen::MatrixXi edges = Rows(triangles.data() + triangles.size(), labelled, 3).cast<int>();
   EXPECT_EQ(vertices.leftCols(2), mesh.vertices);
   EXPECT_EQ(triangles.leftCols(3).cast<int>(), (mesh.triangles.array() + 1).matrix());
-  for (int t = 0; t < mesh.triangle_count(); ++t) EXPECT_EQ(triangles(t, 3), static_cast<int>(mesh.region[t]));
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    EXPECT_EQ(triangles(t, 3), static_cast<int>(mesh.region[t]));
   for (const auto& [label, count] : {std::pair{3, 4}, {4, 20}, {5, 4}})
     EXPECT_EQ((edges.col(2).array() == label).count(), count) << label;
   for (const auto& edge : edges.rowwise()) {

@@ -28,7 +28,8 @@ std::string from_base64(const std::string& text) {
       group = group << 6 | static_cast<std::uint32_t>(value);
       fill += text[k] == '=';
     }
-    for (std::size_t k = 0; k < 3 - fill; ++k) bytes += static_cast<char>(group >> (16 - 8 * k) & 255);
+    for (std::size_t k = 0; k < 3 - fill; ++k)
+      bytes += static_cast<char>(group >> (16 - 8 * k) & 255);
   }
   return bytes;
 }
@@ -84,9 +85,9 @@ TEST(WriteVtu, P1SharesItsVerticesAndCrouzeixRaviartKeepsItsJumps) {
     EXPECT_TRUE(well_formed(text));
     EXPECT_EQ(text.rfind("<?xml version=\"1.0\"?>\n<VTKFile", 0), 0U);
 
-    const auto value = vtu_array(text, "u"), region = vtu_array(text, "region"), point = vtu_array(text, "points"),
-               corner = vtu_array(text, "connectivity"), offset = vtu_array(text, "offsets"),
-               type = vtu_array(text, "types");
+    const auto value = vtu_array(text, "u"), region = vtu_array(text, "region"),
+               point = vtu_array(text, "points"), corner = vtu_array(text, "connectivity"),
+               offset = vtu_array(text, "offsets"), type = vtu_array(text, "types");
     EXPECT_EQ(value.size(), shared ? mesh.vertex_count() : 3U * triangles);
     ASSERT_EQ(point.size(), 3 * value.size());
     ASSERT_EQ(corner.size(), 3U * triangles);
@@ -102,7 +103,8 @@ TEST(WriteVtu, P1SharesItsVerticesAndCrouzeixRaviartKeepsItsJumps) {
         EXPECT_EQ(point[3 * p], mesh.vertices(mesh.triangles(t, i), 0));
         EXPECT_EQ(point[3 * p + 1], mesh.vertices(mesh.triangles(t, i), 1));
       }
-      // the affine function of the file takes u's values at the unknowns; 1e-14: three terms of order 1
+      // the affine function of the file takes u's values at the unknowns; 1e-14: three terms of
+      // order 1
       const Eigen::Vector3d at_unknowns = element->support_points() * corners;
       for (int i = 0; i < 3; ++i) EXPECT_NEAR(at_unknowns(i), u(space.cell_dofs()(t, i)), 1e-14);
     }
@@ -116,7 +118,8 @@ TEST(WriteDeformedVtu, MovesEveryTriangleWithItsUnknowns) {
   const Space x(mesh, p1()), y(mesh, crouzeix_raviart());
   // u = (2x + y, -x/2), affine: in both spaces
   Eigen::VectorXd u(x.size() + y.size());
-  u << 2 * x.dof_coordinates().col(0) + x.dof_coordinates().col(1), -0.5 * y.dof_coordinates().col(0);
+  u << 2 * x.dof_coordinates().col(0) + x.dof_coordinates().col(1),
+      -0.5 * y.dof_coordinates().col(0);
   const Eigen::VectorXd pressure = Eigen::VectorXd::LinSpaced(triangles, 0, 1);
   write_deformed_vtu(folder / "u.vtu", {x, y}, u, pressure);
   const std::string text = contents(folder / "u.vtu");
@@ -129,14 +132,18 @@ TEST(WriteDeformedVtu, MovesEveryTriangleWithItsUnknowns) {
   for (int t = 0; t < triangles; ++t)
     for (int i = 0; i < 3; ++i) {
       const std::size_t at = 9U * t + 3U * i;
-      const double vx = mesh.vertices(mesh.triangles(t, i), 0), vy = mesh.vertices(mesh.triangles(t, i), 1);
+      const double vx = mesh.vertices(mesh.triangles(t, i), 0),
+                   vy = mesh.vertices(mesh.triangles(t, i), 1);
       // 1e-14: a few terms of order 1
       EXPECT_NEAR(moved[at], 2 * vx + vy, 1e-14);
       EXPECT_NEAR(moved[at + 1], -0.5 * vx, 1e-14);
       EXPECT_NEAR(point[at], vx + moved[at], 1e-14);
       EXPECT_NEAR(point[at + 1], vy + moved[at + 1], 1e-14);
     }
-  EXPECT_NE(refusal([&] { write_deformed_vtu(folder / "u.vtu", {x, y}, u, pressure.head(2)); }), "");
+  EXPECT_NE(refusal([&] {
+              write_deformed_vtu(folder / "u.vtu", {x, y}, u, pressure.head(2));
+            }),
+            "");
 }
 
 }  // namespace antilock::test::io_test::write_vtu_test

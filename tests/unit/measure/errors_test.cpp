@@ -17,7 +17,8 @@ namespace antilock::test::measure_test::errors_test {
 
 /// u = x y.
 Reference product(double epsilon) {
-  return {[](double x, double y) { return x * y; }, [](double x, double y) { return Eigen::Vector2d(y, x); },
+  return {[](double x, double y) { return x * y; },
+          [](double x, double y) { return Eigen::Vector2d(y, x); },
           [epsilon](double x, double) { return x / (epsilon * epsilon); }};
 }
 
@@ -27,7 +28,8 @@ TEST(Errors, VanishForFunctionsOfTheSpace) {
     for (const Reference& u : {affine(epsilon), product(epsilon)}) {
       if (space.element().degree() == 1 && u.value(1, 1) == 1) continue;  // x y is quadratic
       const Errors e = measure_errors(space, interpolant(space, u, epsilon), epsilon, u);
-      for (const double norm : {e.max, e.max_at_unknowns, e.l2, e.h1, e.energy}) EXPECT_LT(norm, 1e-11) << space.name;
+      for (const double norm : {e.max, e.max_at_unknowns, e.l2, e.h1, e.energy})
+        EXPECT_LT(norm, 1e-11) << space.name;
     }
   }
 }
@@ -43,7 +45,8 @@ TEST(Errors, AreTheNormsOfTheReferenceWhereTheSolutionIsZero) {
     EXPECT_NEAR(e.l2, std::sqrt(2.0 / 9), 1e-11) << space.name;
     EXPECT_NEAR(e.h1, std::sqrt(2.0 / 9 + 4.0 / 3), 1e-11) << space.name;
     // body x^2 + y^2, layer y^2 + epsilon^-2 x^2
-    EXPECT_NEAR(e.energy, std::sqrt(2.0 / 3 + 1.0 / 3 + 1 / (3 * epsilon * epsilon)), 1e-11) << space.name;
+    EXPECT_NEAR(e.energy, std::sqrt(2.0 / 3 + 1.0 / 3 + 1 / (3 * epsilon * epsilon)), 1e-11)
+        << space.name;
     EXPECT_LE(e.max_at_unknowns, e.max);
     EXPECT_GT(e.max_at_unknowns, 0.8);
   }
@@ -56,7 +59,8 @@ TEST(Errors, SeeTheJumpsOfCrouzeixRaviart) {
   s.u = Eigen::VectorXd::Zero(space.size());
   s.p = Eigen::VectorXd::Zero(layer_strain(space).m.size());
   s.u(space.size() / 2) = 1;
-  const Reference zero{[](double, double) { return 0.5; }, [](double, double) { return Eigen::Vector2d(0, 0); },
+  const Reference zero{[](double, double) { return 0.5; },
+                       [](double, double) { return Eigen::Vector2d(0, 0); },
                        [](double, double) { return 0.0; }};
   const Errors e = measure_errors(space, s, 1, zero);
   EXPECT_NEAR(e.max_at_unknowns, 0.5, 1e-14);
@@ -82,7 +86,8 @@ TEST(Slope, IsExactForPowersOfH) {
 
 TEST(Energy, OfAnAffineFunctionByHand) {
   const Space space(structured_mesh(4), p1());
-  const VariationalInequality problem = assemble(Scene({[](double, double) { return 1.0; }}, StiffLayer{0.5}), space);
+  const VariationalInequality problem =
+      assemble(Scene({[](double, double) { return 1.0; }}, StiffLayer{0.5}), space);
   const Solution s = interpolant(space, affine(0.5), 0.5);
   // a: body 9 + 4, layer 9 + 4 / 0.25; L: the mean of 0.2 + 3 x - 2 y over the body is 0.7
   EXPECT_NEAR(energy(problem, s), 0.5 * (13 + 9 + 16) - 0.7, 1e-11);
@@ -147,21 +152,26 @@ TEST(ExactResidual, IsTheWorkOfTheContactPressureOnConformingSpaces) {
   std::vector<double> ends;
   for (const auto& [from, to] : exact.contact_zones()) ends.insert(ends.end(), {from, to});
   for (const NamedSpace& space : two_square_spaces(8, {&p1(), &p2()})) {
-    Eigen::VectorXd residual = consistency_residual(space, load_vector(space, paper_load), reference(table), ends);
+    Eigen::VectorXd residual =
+        consistency_residual(space, load_vector(space, paper_load), reference(table), ends);
     Eigen::VectorXd work = contact_work(space, [&](double x) { return exact.pressure(x); });
     for (const int i : space.dirichlet_dofs()) residual(i) = work(i) = 0;  // reactions
-    // 1e-3: the stress rises like a square root at the end of contact, within one column of triangles
+    // 1e-3: the stress rises like a square root at the end of contact, within one column of
+    // triangles
     EXPECT_LT((residual - work).cwiseAbs().maxCoeff(), 1e-3 * work.maxCoeff()) << space.name;
   }
 }
 
 TEST(ExactResidual, OfCrouzeixRaviartIsItsFormAtTheInterpolant) {
-  // the means over the edges fix the mean gradient (Lemma 2): a(u, v_h) = a(I_h u, v_h) for every v_h
+  // the means over the edges fix the mean gradient (Lemma 2): a(u, v_h) = a(I_h u, v_h) for every
+  // v_h
   const Reference u = product(1);
   for (const auto& [name, mesh] : two_square_meshes(4)) {
     const Space space(mesh, crouzeix_raviart());
-    const Eigen::VectorXd form = consistency_residual(space, Eigen::VectorXd::Zero(space.size()), u, {0.3});
-    const Eigen::VectorXd discrete = gradient_form(space, {1, 1}, {1, 1}) * interpolant(space, u.value);
+    const Eigen::VectorXd form =
+        consistency_residual(space, Eigen::VectorXd::Zero(space.size()), u, {0.3});
+    const Eigen::VectorXd discrete =
+        gradient_form(space, {1, 1}, {1, 1}) * interpolant(space, u.value);
     EXPECT_LT((form - discrete).cwiseAbs().maxCoeff(), 1e-12) << name;
   }
 }
@@ -171,7 +181,9 @@ TEST(H1Norm, IsTheNormOfTheReferenceAndItsProducts) {
     const Eigen::VectorXd u = interpolant(space, product(1).value);
     EXPECT_NEAR(u.dot(h1_gram_matrix(space) * u), 2.0 / 9 + 4.0 / 3, 1e-12)
         << space.name;  // x y on both squares, by hand
-    EXPECT_LT((h1_gram_matrix(space) * u - h1_products(space, product(1))).cwiseAbs().maxCoeff(), 1e-12) << space.name;
+    EXPECT_LT((h1_gram_matrix(space) * u - h1_products(space, product(1))).cwiseAbs().maxCoeff(),
+              1e-12)
+        << space.name;
   }
 }
 

@@ -10,11 +10,14 @@ namespace antilock::test::measure_test {
 
 using Meshes = std::vector<TriangleMesh>;
 
-inline std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()}; }
+inline std::vector<const Element*> elements() {
+  return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()};
+}
 
 /// u = 0.2 + 3 x - 2 y, exactly in every space; layer stress -2 / epsilon^2.
 inline Reference affine(double epsilon) {
-  return {[](double x, double y) { return 0.2 + 3 * x - 2 * y; }, [](double, double) { return Eigen::Vector2d(3, -2); },
+  return {[](double x, double y) { return 0.2 + 3 * x - 2 * y; },
+          [](double, double) { return Eigen::Vector2d(3, -2); },
           [epsilon](double, double) { return -2 / (epsilon * epsilon); }};
 }
 

@@ -1,4 +1,5 @@
-// How fast, and how accurate: slopes against manufactured solutions, the accuracy table against the truth.
+// How fast, and how accurate: slopes against manufactured solutions, the accuracy table against the
+// truth.
 #include "antilock/exact/exact_table.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
@@ -9,8 +10,9 @@
 
 namespace antilock::test::measure_test::orders_test {
 
-/// The order in H1, and what the errors on 1/h = 64 must stay below, relative to b + c, the size of the second derivatives
-/// of the exact solution: 10 to 20 % above what was measured over the cases below.
+/// The order in H1, and what the errors on 1/h = 64 must stay below, relative to b + c, the size of
+/// the second derivatives of the exact solution: 10 to 20 % above what was measured over the cases
+/// below.
 struct Caps {
   double max, l2, gradient;
   int order = 1;
@@ -22,16 +24,18 @@ Caps caps(const Element& element) {
   return {infinity, infinity, infinity, &element == &p3() ? 3 : 4};
 }
 
-/// Solves without contact on 1/h = 8 ... 64: slopes within 0.1 of (k + 1, k + 1, k, k) over the last three meshes, and
-/// the last error below its cap. Degrees 3 and 4 on 1/h = 4, 8, 16 within 0.2: finer meshes come near the floor of the
-/// solver, 1e-10.
-void check_convergence(const Layer& layer, const Manufactured& exact, const Element& element, bool structured) {
+/// Solves without contact on 1/h = 8 ... 64: slopes within 0.1 of (k + 1, k + 1, k, k) over the
+/// last three meshes, and the last error below its cap. Degrees 3 and 4 on 1/h = 4, 8, 16 within
+/// 0.2: finer meshes come near the floor of the solver, 1e-10.
+void check_convergence(const Layer& layer, const Manufactured& exact, const Element& element,
+                       bool structured) {
   std::vector<double> h, max, l2, h1, energy;
   const Caps cap = caps(element);
   const int k = cap.order;
   for (const int cells : k > 2 ? std::vector{4, 8, 16} : std::vector{8, 16, 32, 64}) {
     const Domain domain{std::holds_alternative<StiffLayer>(layer) ? 1.0 : 0.0};
-    const Space space(structured ? structured_mesh(cells, domain) : unstructured_mesh(cells, domain), element);
+    const Space space(
+        structured ? structured_mesh(cells, domain) : unstructured_mesh(cells, domain), element);
     const Solution s = active_set(assemble(Scene({exact.load()}, layer), space));
     const Errors e = measure_errors(space, s, exact.epsilon, exact.reference());
     h.push_back(1.0 / cells);
@@ -58,9 +62,10 @@ void check_convergence(const Layer& layer, const Manufactured& exact, const Elem
 }
 
 TEST(Convergence, HasTheOrderOfTheDegreeWhereTheLayerIsNotStiff) {
-  for (const auto& [layer, exact] : {std::pair<Layer, Manufactured>{NoLayer{}, Manufactured::no_layer()},
-                                     {StiffLayer{1}, Manufactured::stiff_layer(1)},
-                                     {VentcelLayer{}, Manufactured::ventcel()}})
+  for (const auto& [layer, exact] :
+       {std::pair<Layer, Manufactured>{NoLayer{}, Manufactured::no_layer()},
+        {StiffLayer{1}, Manufactured::stiff_layer(1)},
+        {VentcelLayer{}, Manufactured::ventcel()}})
     for (const Element* element : {&p1(), &crouzeix_raviart(), &p2()})
       for (const bool structured : {true, false})
         if (element != &p2() || !std::holds_alternative<VentcelLayer>(layer))
@@ -70,7 +75,8 @@ TEST(Convergence, HasTheOrderOfTheDegreeWhereTheLayerIsNotStiff) {
 TEST(Convergence, HasTheOrderOfTheDegreeAtEveryEpsilonWhereNothingLocks) {
   for (const double epsilon : {1e-2, 1e-6, 0.0}) {
     const auto check = [&](const Element& element, bool structured) {
-      check_convergence(StiffLayer{epsilon}, Manufactured::stiff_layer(epsilon), element, structured);
+      check_convergence(StiffLayer{epsilon}, Manufactured::stiff_layer(epsilon), element,
+                        structured);
     };
     check(p1(), true);
     check(crouzeix_raviart(), true);
@@ -82,12 +88,14 @@ TEST(Convergence, HasTheOrderOfTheDegreeAtEveryEpsilonWhereNothingLocks) {
 }
 
 using Meshes = std::vector<TriangleMesh>;
-/// Max-norm errors at the unknowns on 1/h = 16, 32, ..., and where the contact starts on the finest.
+/// Max-norm errors at the unknowns on 1/h = 16, 32, ..., and where the contact starts on the
+/// finest.
 struct Study {
   std::vector<double> h, errors;
   double contact_from = 0;
 };
-Study study(const Meshes& meshes, const Element& element, double epsilon, const ExactSolution& exact_solution) {
+Study study(const Meshes& meshes, const Element& element, double epsilon,
+            const ExactSolution& exact_solution) {
   const ExactTable table(exact_solution);
   Study study;
   double h = 1.0 / 16;
@@ -97,8 +105,8 @@ Study study(const Meshes& meshes, const Element& element, double epsilon, const 
     const Solution s = active_set(problem);
     double error = 0;
     for (int i = 0; i < space.size(); ++i)
-      error =
-          std::max(error, std::abs(s.u(i) - table.value(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))));
+      error = std::max(error, std::abs(s.u(i) - table.value(space.dof_coordinates()(i, 0),
+                                                            space.dof_coordinates()(i, 1))));
     study.h.push_back(h);
     study.errors.push_back(error);
     study.contact_from = contact_zone({space, problem, s}).from.value_or(-1);
@@ -107,12 +115,15 @@ Study study(const Meshes& meshes, const Element& element, double epsilon, const 
   return study;
 }
 
-/// The truth against which tables are made; 2^14 points: 1e-7 and better, errors here are 1e-5 and more.
-ExactSolution exact_solution(double epsilon) { return ExactSolution(paper_sine_load(), epsilon, true, 14); }
+/// The truth against which tables are made; 2^14 points: 1e-7 and better, errors here are 1e-5 and
+/// more.
+ExactSolution exact_solution(double epsilon) {
+  return ExactSolution(paper_sine_load(), epsilon, true, 14);
+}
 
 TEST(AccuracyTable, StructuredMeshes) {
-  // errors measured by a first program that shares no line with this library, two or three digits (1 %); diagonal / as
-  // in Figure 3
+  // errors measured by a first program that shares no line with this library, two or three digits
+  // (1 %); diagonal / as in Figure 3
   Meshes meshes;
   for (const int cells : {16, 32, 64, 128}) meshes.push_back(structured_mesh(cells));
   struct Row {
@@ -120,9 +131,10 @@ TEST(AccuracyTable, StructuredMeshes) {
     const Element* element;
     double at_16, at_64, rate, rate_within;
   };
-  for (const Row& row : {Row{1e-2, &p1(), 1.26e-3, 7.97e-5, 2, 0.2}, Row{1e-6, &p1(), 1.26e-3, 7.99e-5, 2, 0.2},
-                         Row{1e-2, &crouzeix_raviart(), 3.56e-3, 2.81e-4, 1.85, 0.15},
-                         Row{1e-6, &crouzeix_raviart(), 3.56e-3, 2.81e-4, 1.85, 0.15}}) {
+  for (const Row& row :
+       {Row{1e-2, &p1(), 1.26e-3, 7.97e-5, 2, 0.2}, Row{1e-6, &p1(), 1.26e-3, 7.99e-5, 2, 0.2},
+        Row{1e-2, &crouzeix_raviart(), 3.56e-3, 2.81e-4, 1.85, 0.15},
+        Row{1e-6, &crouzeix_raviart(), 3.56e-3, 2.81e-4, 1.85, 0.15}}) {
     const Study s = study(meshes, *row.element, row.epsilon, exact_solution(row.epsilon));
     const std::string where = row.element->name() + ", epsilon " + std::to_string(row.epsilon);
     EXPECT_NEAR(s.errors[0] / row.at_16, 1, 0.01) << where;
@@ -143,7 +155,8 @@ TEST(AccuracyTable, UnstructuredMeshes) {
     EXPECT_NEAR(cr.errors[0] / 2.65e-3, 1, 0.4) << epsilon;
     EXPECT_NEAR(cr.errors[2] / 5.06e-4, 1, 0.4) << epsilon;
     EXPECT_GT(slope(cr.h, cr.errors), 1.2) << epsilon;
-    // where contact begins the gap opens from zero slope: a nonconforming gap may close an edge too early
+    // where contact begins the gap opens from zero slope: a nonconforming gap may close an edge too
+    // early
     EXPECT_NEAR(cr.contact_from, epsilon == 1e-6 ? 0.7020 : 0.69753, 2.0 / 128) << epsilon;
   }
   const Study locked = study(meshes, p1(), 1e-6, exact_solution(1e-6));

@@ -39,11 +39,15 @@ TEST(Mesh, RegionsAndTagsSitWhereFigureTwoPutsThem) {
   for (const auto& [name, mesh] : all_meshes()) {
     const double depth = std::max(0.0, depth_of(mesh));
     for (int t = 0; t < mesh.triangle_count(); ++t)
-      ASSERT_EQ(mesh.region[t], mesh.vertices.col(1)(mesh.triangles.row(t)).sum() > 0 ? Region::body : Region::layer)
+      ASSERT_EQ(mesh.region[t], mesh.vertices.col(1)(mesh.triangles.row(t)).sum() > 0
+                                    ? Region::body
+                                    : Region::layer)
           << name;
     for (int e = 0; e < mesh.edge_count(); ++e) {
       const auto a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
-      const auto both_on = [&](int axis, double value) { return a(axis) == value && b(axis) == value; };
+      const auto both_on = [&](int axis, double value) {
+        return a(axis) == value && b(axis) == value;
+      };
       EdgeTag expected = EdgeTag::interior;
       if (both_on(0, 0) || both_on(0, 1) || both_on(1, 1)) expected = EdgeTag::clamped;
       if (depth > 0 && both_on(1, 0)) expected = EdgeTag::sigma;
@@ -58,12 +62,14 @@ TEST(Mesh, EdgesMatchTheirTriangles) {
     std::set<std::pair<int, int>> seen;
     for (int e = 0; e < mesh.edge_count(); ++e) {
       ASSERT_LT(mesh.edges(e, 0), mesh.edges(e, 1)) << name;
-      ASSERT_TRUE(seen.insert({mesh.edges(e, 0), mesh.edges(e, 1)}).second) << name << ": an edge twice";
+      ASSERT_TRUE(seen.insert({mesh.edges(e, 0), mesh.edges(e, 1)}).second)
+          << name << ": an edge twice";
     }
     for (int t = 0; t < mesh.triangle_count(); ++t)
       for (int i = 0; i < 3; ++i) {
         const int e = mesh.triangle_edges(t, i);  // lies opposite vertex i
-        const auto [low, high] = std::minmax(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3));
+        const auto [low, high] =
+            std::minmax(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3));
         ASSERT_EQ(mesh.edges(e, 0), low) << name;
         ASSERT_EQ(mesh.edges(e, 1), high) << name;
         ASSERT_TRUE(mesh.edge_triangles(e, 0) == t || mesh.edge_triangles(e, 1) == t) << name;
@@ -74,7 +80,8 @@ TEST(Mesh, EdgesMatchTheirTriangles) {
 TEST(Mesh, HIsTheRequestedOne) {
   for (const int cells : {1, 5, 16}) {
     EXPECT_NEAR(structured_mesh(cells).diameter(), std::sqrt(2.0) / cells, 1e-15);
-    // gmsh keeps edges near the size asked for: never twice it, and about 2 to 2.6 cells^2 triangles a square
+    // gmsh keeps edges near the size asked for: never twice it, and about 2 to 2.6 cells^2
+    // triangles a square
     const TriangleMesh mesh = unstructured_mesh(cells);
     EXPECT_LT(mesh.diameter(), 2.0 / cells);
     EXPECT_GE(mesh.diameter(), (1 - 1e-14) / cells);  // gmsh puts that edge on the boundary
@@ -85,21 +92,24 @@ TEST(Mesh, AThinLayerIsTwoCellsDeepAtLeast) {
   for (const TriangleMesh& mesh : {structured_mesh(8, {0.01}), unstructured_mesh(8, {0.01})}) {
     EXPECT_EQ(mesh.vertices.col(1).minCoeff(), -0.01);
     bool inside = false;
-    for (int v = 0; v < mesh.vertex_count(); ++v) inside |= mesh.vertices(v, 1) < 0 && mesh.vertices(v, 1) > -0.01;
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+      inside |= mesh.vertices(v, 1) < 0 && mesh.vertices(v, 1) > -0.01;
     EXPECT_TRUE(inside) << "no vertex inside the layer";
   }
 }
 
-// The limit: gmsh itself makes the mesh of 128 cells; beyond, a coarser one is refined. Frontal-Delaunay: 41 degrees measured
-// at 1/64.
+// The limit: gmsh itself makes the mesh of 128 cells; beyond, a coarser one is refined.
+// Frontal-Delaunay: 41 degrees measured at 1/64.
 TEST(Mesh, UnstructuredIsWellShapedAndOfTheHAskedForBeyondGmshsLimitToo) {
-  for (const auto& [cells, depth] : {std::pair{32, 1.0}, {129, 0.0}, {200, 0.0}, {161, 1.0}, {512, 0.0}, {150, 0.01}}) {
+  for (const auto& [cells, depth] :
+       {std::pair{32, 1.0}, {129, 0.0}, {200, 0.0}, {161, 1.0}, {512, 0.0}, {150, 0.01}}) {
     const std::string name = fmt::format("{} cells, depth {}", cells, depth);
     const TriangleMesh mesh = unstructured_mesh(cells, {depth});
     EXPECT_GT(angles(mesh).first, depth == 0.01 ? 20 : 30) << name;
     expect_two_squares(mesh, depth, 1e-11, name);
     EXPECT_EQ(depth_of(mesh), depth) << name;
-    // h: on the top side, whose edges gmsh makes equal, as asked or the least that whole numbers allow
+    // h: on the top side, whose edges gmsh makes equal, as asked or the least that whole numbers
+    // allow
     double top = 0;
     for (int e = 0; e < mesh.edge_count(); ++e)
       if (mesh.vertices(mesh.edges(e, 0), 1) == 1 && mesh.vertices(mesh.edges(e, 1), 1) == 1)
@@ -131,10 +141,12 @@ TEST(Mesh, AKeptMeshIsTheMeshThatGmshMakes) {
   ASSERT_TRUE(fs::exists(first));
   const auto whole = fs::file_size(first);
   for (const fs::directory_entry& other : fs::directory_iterator(folder.path()))
-    if (other.path() != first) fs::copy_file(first, other.path(), fs::copy_options::overwrite_existing);
+    if (other.path() != first)
+      fs::copy_file(first, other.path(), fs::copy_options::overwrite_existing);
   expect_same(unstructured_mesh(5, {0.1}), twelve);
   // what is cut, longer or empty is made anew
-  for (const auto size : std::initializer_list<std::uintmax_t>{whole - 1, whole + 1, whole / 2, 24, 0}) {
+  for (const auto size :
+       std::initializer_list<std::uintmax_t>{whole - 1, whole + 1, whole / 2, 24, 0}) {
     fs::resize_file(first, size);
     expect_same(unstructured_mesh(12), twelve);
     EXPECT_EQ(fs::file_size(first), whole) << size;
@@ -149,8 +161,10 @@ TEST(Mesh, StructuredIsSquaresCutAlongOneDiagonal) {
     const TriangleMesh mesh = structured_mesh(6, {}, diagonal);
     EXPECT_EQ(mesh.vertex_count(), 7 * 13);
     for (int e = 0; e < mesh.edge_count(); ++e) {
-      const Eigen::RowVector2d along = (mesh.vertices.row(mesh.edges(e, 1)) - mesh.vertices.row(mesh.edges(e, 0))) / h;
-      const bool cut = std::abs(along(0) - slope * along(1)) < 1e-13 && std::abs(std::abs(along(0)) - 1) < 1e-13;
+      const Eigen::RowVector2d along =
+          (mesh.vertices.row(mesh.edges(e, 1)) - mesh.vertices.row(mesh.edges(e, 0))) / h;
+      const bool cut =
+          std::abs(along(0) - slope * along(1)) < 1e-13 && std::abs(std::abs(along(0)) - 1) < 1e-13;
       EXPECT_TRUE(cut || std::abs(along.cwiseAbs().sum() - 1) < 1e-13) << along;
     }
   }
@@ -162,7 +176,8 @@ TEST(Mesh, RefinedKeepsAreasTagsAndFathers) {
     ASSERT_EQ(fine.triangle_count(), 4 * mesh.triangle_count()) << name;
     for (int t = 0; t < fine.triangle_count(); ++t) {
       EXPECT_EQ(fine.region[t], mesh.region[t / 4]) << name;
-      EXPECT_NEAR(fine.area(t), mesh.area(t / 4) / 4, 1e-15) << name;  // round-off of coordinates of size 1
+      EXPECT_NEAR(fine.area(t), mesh.area(t / 4) / 4, 1e-15)
+          << name;  // round-off of coordinates of size 1
     }
     for (const EdgeTag tag : {EdgeTag::sigma, EdgeTag::clamped, EdgeTag::contact})
       EXPECT_NEAR(length(fine, tag), length(mesh, tag), 1e-14) << name;
@@ -175,9 +190,11 @@ TEST(Mesh, RefinedKeepsAreasTagsAndFathers) {
 }
 
 TEST(Mesh, JitterMovesTheInsideAloneAndTurnsNoTriangleOver) {
-  const TriangleMesh straight = structured_mesh(16), moved = jittered_mesh(16, 0.2), less = jittered_mesh(16, 0.1);
+  const TriangleMesh straight = structured_mesh(16), moved = jittered_mesh(16, 0.2),
+                     less = jittered_mesh(16, 0.1);
   EXPECT_EQ(jittered_mesh(16, 0).vertices, straight.vertices);
-  EXPECT_LT((moved.vertices - straight.vertices - 2 * (less.vertices - straight.vertices)).norm(), 1e-13);
+  EXPECT_LT((moved.vertices - straight.vertices - 2 * (less.vertices - straight.vertices)).norm(),
+            1e-13);
   EXPECT_LE((moved.vertices - straight.vertices).cwiseAbs().maxCoeff(), 0.2 / 16);
   for (int t = 0; t < moved.triangle_count(); ++t) EXPECT_GT(moved.twice_area(t), 0);
   for (const EdgeTag tag : {EdgeTag::sigma, EdgeTag::clamped, EdgeTag::contact})
@@ -191,7 +208,8 @@ std::array<int, 2> with_vertical_edge(const TriangleMesh& mesh) {
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] == Region::body) continue;
     const auto upright = [&](int i, int j) {  // gmsh places points to about 1e-12
-      return std::abs(mesh.vertices(mesh.triangles(t, i), 0) - mesh.vertices(mesh.triangles(t, j), 0)) < 1e-9;
+      return std::abs(mesh.vertices(mesh.triangles(t, i), 0) -
+                      mesh.vertices(mesh.triangles(t, j), 0)) < 1e-9;
     };
     ++count[0], count[1] += upright(0, 1) || upright(1, 2) || upright(2, 0);
   }
@@ -212,7 +230,8 @@ TEST(Mesh, FamiliesAreWhatTheirNamesSay) {
   for (const char* name : {"structured", "layered", "columns"}) EXPECT_EQ(share[name], 1) << name;
   // per row 2 n + 1 triangles, the two at its ends lean on the sides of the layer
   for (const char* name : {"rows", "staggered"}) EXPECT_DOUBLE_EQ(share[name], 2.0 / 33) << name;
-  EXPECT_GT(share["unstructured"], 2 * share["delaunay"]);  // Frontal-Delaunay begins at the boundary
+  EXPECT_GT(share["unstructured"],
+            2 * share["delaunay"]);  // Frontal-Delaunay begins at the boundary
   expect_refused([] { mesh_family("hexagons"); }, "accepted: structured, layered, columns");
   expect_refused([] { rows_mesh(0, 4); }, "accepted 1 to 2048");
 }
@@ -222,7 +241,8 @@ TEST(Mesh, LatticesAreOfCongruentTriangles) {
   for (const TriangleMesh& mesh : {rows_mesh(8, 9), columns_mesh(8, 9)}) {
     int whole = 0;
     for (int t = 0; t < mesh.triangle_count(); ++t) {
-      if (mesh.region[t] == Region::body || mesh.area(t) < 0.4 * h * height) continue;  // half of one
+      if (mesh.region[t] == Region::body || mesh.area(t) < 0.4 * h * height)
+        continue;  // half of one
       std::array<double, 3> length{};
       for (int i = 0; i < 3; ++i) length[i] = mesh.edge_length(mesh.triangle_edges(t, i));
       std::sort(length.begin(), length.end());
@@ -235,8 +255,10 @@ TEST(Mesh, LatticesAreOfCongruentTriangles) {
 }
 
 TEST(Mesh, RefusesRequestsOutOfRange) {
-  for (const int cells : {0, -3, 2049}) expect_refused([&] { structured_mesh(cells); }, "accepted 1 to 2048");
-  for (const int cells : {0, -3, 513}) expect_refused([&] { unstructured_mesh(cells); }, "accepted 1 to 512");
+  for (const int cells : {0, -3, 2049})
+    expect_refused([&] { structured_mesh(cells); }, "accepted 1 to 2048");
+  for (const int cells : {0, -3, 513})
+    expect_refused([&] { unstructured_mesh(cells); }, "accepted 1 to 512");
   for (const double depth : {-0.1, 1.1, nan}) {
     expect_refused([&] { structured_mesh(4, {depth}); }, "accepted 0 to 1");
     expect_refused([&] { unstructured_mesh(4, {depth}); }, "accepted 0 to 1");

@@ -1,5 +1,6 @@
-// Files as other programs write them: what is meant is read, and what cannot be read is named. The comment of each test
-// has the public report that the case was made from, by repository and number; nothing was copied.
+// Files as other programs write them: what is meant is read, and what cannot be read is named. The
+// comment of each test has the public report that the case was made from, by repository and number;
+// nothing was copied.
 #include "antilock/core/number.hpp"
 #include "antilock/core/plain_text.hpp"
 #include "antilock/mesh/read_msh.hpp"
@@ -14,7 +15,8 @@ void refused(const std::string& text, const std::string& words) {
   expect_refused([&] { read(text); }, words);
 }
 
-// Two surfaces of two triangles each, side by side in the group body: (0, 1) x (0, 1) and (1, 2) x (0, 1).
+// Two surfaces of two triangles each, side by side in the group body: (0, 1) x (0, 1) and (1, 2) x
+// (0, 1).
 const std::string start = R"($MeshFormat
 2.2 0 8
 $EndMeshFormat
@@ -116,30 +118,36 @@ void expect_the_same_mesh(const TriangleMesh& mesh) {
 }
 
 // deal.II #13579 and #13346, FerriteGmsh #15 and #57: gmsh meshes a surface clockwise whose curve
-// loop is drawn so. Each surface is turned by itself; a triangle that is inverted within one is an error, still.
+// loop is drawn so. Each surface is turned by itself; a triangle that is inverted within one is an
+// error, still.
 TEST(ForeignMesh, EachSurfaceMayBeClockwise) {
   expect_the_same_mesh(read(start + nodes_22 + lines_22 + left + right_clockwise + end));
-  const std::string turned = with(with(two_surfaces_41, "9 2 3 4", "9 2 4 3"), "10 2 4 5", "10 2 5 4");
+  const std::string turned =
+      with(with(two_surfaces_41, "9 2 3 4", "9 2 4 3"), "10 2 4 5", "10 2 5 4");
   expect_the_same_mesh(read(turned));
   refused(with(two_surfaces, "9 2 2 1 2 2 3 4", "9 2 2 1 2 2 4 3"), "inverted triangle");
   refused(with(two_surfaces_41, "9 2 3 4", "9 2 4 3"), "inverted triangle");
 }
 
-// The same reports: the first tag alone, as some converters write it, or 0 for the entity. The group is the surface then.
+// The same reports: the first tag alone, as some converters write it, or 0 for the entity. The
+// group is the surface then.
 TEST(ForeignMesh, AGroupIsTheSurfaceWhereNoneIsNamed) {
   std::string one_tag = two_surfaces;
   for (const char* element : {"7 2 ", "8 2 ", "9 2 ", "10 2 "})
     for (const char* tags : {"2 1 1 ", "2 1 2 "})
-      if (const std::string old = std::string(element) + tags; one_tag.find("\n" + old) != one_tag.npos)
+      if (const std::string old = std::string(element) + tags;
+          one_tag.find("\n" + old) != one_tag.npos)
         one_tag = with(one_tag, "\n" + old, "\n" + std::string(element) + "1 1 ");
   EXPECT_EQ(one_tag.find("2 2 1 2 2 3 4"), one_tag.npos);
   expect_the_same_mesh(read(one_tag));
   refused(with(one_tag, "9 2 1 1 2 3 4", "9 2 1 1 2 4 3"), "inverted triangle");
 }
 
-// A relative of FerriteGmsh #57: Physical Surface("body") = {1, -2} turns a surface by the sign of its group.
+// A relative of FerriteGmsh #57: Physical Surface("body") = {1, -2} turns a surface by the sign of
+// its group.
 TEST(ForeignMesh, ANegativeGroupIsTheGroup) {
-  expect_the_same_mesh(read(start + nodes_22 + lines_22 + left + "9 2 2 -1 2 2 4 3\n10 2 2 -1 2 2 5 4\n" + end));
+  expect_the_same_mesh(
+      read(start + nodes_22 + lines_22 + left + "9 2 2 -1 2 2 4 3\n10 2 2 -1 2 2 5 4\n" + end));
   expect_the_same_mesh(read(with(two_surfaces_41, "2 1 0 0 2 1 0 1 1 0", "2 1 0 0 2 1 0 1 -1 0")));
 }
 
@@ -147,13 +155,16 @@ TEST(ForeignMesh, ANegativeGroupIsTheGroup) {
 // centre of a circle, which may be a physical point and off the plane.
 TEST(ForeignMesh, ANodeOfNoTriangleIsLeftOut) {
   expect_the_same_mesh(read(two_surfaces_41));  // node 7 at (0, 0, 5)
-  const std::string more = with(with(two_surfaces, "$Nodes\n6\n", "$Nodes\n8\n10 1 0.5 0\n"), "6 0 1 0\n",
-                                "6 0 1 0\n900 1 0 -3\n");  // in the place of another one, but for z
+  const std::string more =
+      with(with(two_surfaces, "$Nodes\n6\n", "$Nodes\n8\n10 1 0.5 0\n"), "6 0 1 0\n",
+           "6 0 1 0\n900 1 0 -3\n");  // in the place of another one, but for z
   expect_the_same_mesh(read(more));
-  const std::string as_point = with(with(more, "$Elements\n10\n", "$Elements\n11\n"), end, "11 15 2 7 1 900\n" + end);
+  const std::string as_point =
+      with(with(more, "$Elements\n10\n", "$Elements\n11\n"), end, "11 15 2 7 1 900\n" + end);
   expect_the_same_mesh(read(as_point));
   // a line that needs it is wrong, and so is a triangle out of the plane
-  refused(with(with(more, "$Elements\n10\n", "$Elements\n11\n"), end, "11 1 2 4 9 10 5\n" + end), "dangling");
+  refused(with(with(more, "$Elements\n10\n", "$Elements\n11\n"), end, "11 1 2 4 9 10 5\n" + end),
+          "dangling");
   refused(with(two_surfaces, "4 2 1 0\n", "4 2 1 -3\n"), "line 15: node 4 has z = -3");
 }
 
@@ -173,23 +184,28 @@ $EndParametricNodes
   refused(with(two_surfaces, nodes_22, nodes_22 + parametric), "a second");
   refused(with(two_surfaces, nodes_22, with(parametric, "1 0 0 0 0 1", "1 0 0 0")),
           "$ParametricNodes; accepted: 6 to 8");
-  refused(with(two_surfaces, nodes_22, with(parametric, "$EndParametricNodes", "$EndNodes")), "$EndParametricNodes");
+  refused(with(two_surfaces, nodes_22, with(parametric, "$EndParametricNodes", "$EndNodes")),
+          "$EndParametricNodes");
 }
 
-// A relative of meshio #1411: a file that holds results beside the mesh has a section for each of their steps.
+// A relative of meshio #1411: a file that holds results beside the mesh has a section for each of
+// their steps.
 TEST(ForeignMesh, SectionsThatAMeshDoesNotNeedArePassedOver) {
   const std::string step = "$NodeData\n1\n\"u\"\n1\n0.5\n3\n0\n1\n1\n1 2.5\n$EndNodeData\n";
   const std::string more =
-      "$Periodic\n1\n1 2 1\n1\n1 2\n$EndPeriodic\n$InterpolationScheme\n\"x\"\n0\n$EndInterpolationScheme\n";
+      "$Periodic\n1\n1 2 1\n1\n1 "
+      "2\n$EndPeriodic\n$InterpolationScheme\n\"x\"\n0\n$EndInterpolationScheme\n";
   expect_the_same_mesh(read("$Comments\nmade by hand\n$EndComments\n" +
                             with(two_surfaces, "$Nodes\n", more + "$Nodes\n") + step + step));
   expect_the_same_mesh(read(two_surfaces_41 + step + step));
-  refused(with(two_surfaces_41, "$Entities", "$PartitionedEntities\n2\n$EndPartitionedEntities\n$Entities"),
+  refused(with(two_surfaces_41, "$Entities",
+               "$PartitionedEntities\n2\n$EndPartitionedEntities\n$Entities"),
           "partition");
 }
 
-// A relative of meshio #993: with gmsh's option Mesh.SaveAll, the usual answer to a mesh that lacks elements,
-// lines within the body come in no group. A side in no group is refused, still, and so is a triangle.
+// A relative of meshio #993: with gmsh's option Mesh.SaveAll, the usual answer to a mesh that lacks
+// elements, lines within the body come in no group. A side in no group is refused, still, and so is
+// a triangle.
 TEST(ForeignMesh, LinesInNoGroupArePassedOver) {
   const std::string more =
       with(with(two_surfaces, "$Elements\n10\n", "$Elements\n11\n"), end, "11 1 2 0 7 2 5\n" + end);
@@ -199,16 +215,16 @@ TEST(ForeignMesh, LinesInNoGroupArePassedOver) {
   refused(with(two_surfaces, "9 2 2 1 2", "9 2 2 0 2"), "element 9 is in no physical group");
 }
 
-// dolfinx #3332 and MTEX2Gmsh #7: in MSH 2.2 a surface in two groups comes twice. "Three triangles share the edge", it was
-// said.
+// dolfinx #3332 and MTEX2Gmsh #7: in MSH 2.2 a surface in two groups comes twice. "Three triangles
+// share the edge", it was said.
 TEST(ForeignMesh, ATriangleTwiceIsNamedWithBothGroups) {
-  const std::string more =
-      with(with(two_surfaces, "$Elements\n10\n", "$Elements\n11\n"), "2 1 \"body\"\n", "2 1 \"body\"\n2 3 \"layer\"\n");
+  const std::string more = with(with(two_surfaces, "$Elements\n10\n", "$Elements\n11\n"),
+                                "2 1 \"body\"\n", "2 1 \"body\"\n2 3 \"layer\"\n");
   const std::string three_names = with(more, "$PhysicalNames\n3\n", "$PhysicalNames\n4\n");
-  refused(
-      with(three_names, end, "11 2 2 3 1 6 5 1\n" + end),
-      "element 11, in the group \"layer\", is the same triangle as element 8, in the group \"body\"; accepted: each "
-      "triangle once, in one group");
+  refused(with(three_names, end, "11 2 2 3 1 6 5 1\n" + end),
+          "element 11, in the group \"layer\", is the same triangle as element 8, in the group "
+          "\"body\"; accepted: each "
+          "triangle once, in one group");
 }
 
 // PyFR #381 and pygmsh #410: a curve and a surface may have one name, as they may have one number.
@@ -224,33 +240,40 @@ TEST(ForeignMesh, ACurveAndASurfaceMayHaveOneName) {
     EXPECT_EQ(part, std::vector<int>(4, 0));
     return mesh;
   };
-  const ExtraGroups steel{{{"steel", dirichlet_group(0)}}, {"steel"}}, curve{{{"steel", dirichlet_group(0)}}, {}};
+  const ExtraGroups steel{{{"steel", dirichlet_group(0)}}, {"steel"}},
+      curve{{{"steel", dirichlet_group(0)}}, {}};
   const TriangleMesh mesh = read_with(named("steel", "steel"), steel);
   EXPECT_EQ(mesh.vertices, read(two_surfaces).vertices);
   EXPECT_EQ(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), dirichlet_group(0)), 4);
-  expect_refused([&] { read_with(named("clamped", "steel"), steel); }, "has no curve in the group \"steel\"");
-  expect_refused([&] { read_with(named("steel", "body"), steel); }, "has no surface in the group \"steel\"");
-  expect_refused([&] { read_with(named("steel", "steel"), curve); }, "unknown surface group \"steel\"");
-  refused(with(two_surfaces, "1 5 \"contact\"", "1 5 \"clamped\""), "the curve group \"clamped\" is named twice");
+  expect_refused([&] { read_with(named("clamped", "steel"), steel); },
+                 "has no curve in the group \"steel\"");
+  expect_refused([&] { read_with(named("steel", "body"), steel); },
+                 "has no surface in the group \"steel\"");
+  expect_refused([&] { read_with(named("steel", "steel"), curve); },
+                 "unknown surface group \"steel\"");
+  refused(with(two_surfaces, "1 5 \"contact\"", "1 5 \"clamped\""),
+          "the curve group \"clamped\" is named twice");
 }
 
 // scnlib #77: what a printf with "%+e" and Fortran's SP write is a number. BALL #166 and
 // ifcplusplus #225: a comma for the point and Fortran's D are none.
 TEST(ForeignMesh, APlusSignIsPartOfANumber) {
-  const std::string signs =
-      with(with(two_surfaces, "4 2 1 0\n", "+4 +2.0e+00 +1.E0 -0\n"), "$Nodes\n6\n", "$Nodes\n+6\n");
+  const std::string signs = with(with(two_surfaces, "4 2 1 0\n", "+4 +2.0e+00 +1.E0 -0\n"),
+                                 "$Nodes\n6\n", "$Nodes\n+6\n");
   expect_the_same_mesh(read(signs));
   for (const char* bad : {"1,0", "0.1D+01", "+-1", "++1", "+", "0x1p0", "1e", "1.0f", "+nan"})
     refused(with(two_surfaces, "4 2 1 0\n", "4 2 " + std::string(bad) + " 0\n"),
             "line 15: \"" + std::string(bad) + "\" is no coordinate");
 }
 
-// numpy #18861: a byte order mark before the first character. Its relatives: the end of lines and blanks of
-// Windows, numbers behind tabs, and a file in UTF-16, as Windows' PowerShell writes what is redirected.
+// numpy #18861: a byte order mark before the first character. Its relatives: the end of lines and
+// blanks of Windows, numbers behind tabs, and a file in UTF-16, as Windows' PowerShell writes what
+// is redirected.
 TEST(ForeignMesh, EncodingsAreReadOrNamed) {
   expect_the_same_mesh(read("\xef\xbb\xbf" + two_surfaces));
   std::string windows;
-  for (const char c : two_surfaces) windows += c == '\n' ? " \r\n" : c == ' ' ? "\t" : std::string(1, c);
+  for (const char c : two_surfaces)
+    windows += c == '\n' ? " \r\n" : c == ' ' ? "\t" : std::string(1, c);
   expect_the_same_mesh(read(windows));
   std::string wide;
   for (const char c : two_surfaces) wide += {c, '\0'};
@@ -260,7 +283,8 @@ TEST(ForeignMesh, EncodingsAreReadOrNamed) {
   refused("\xef\xbb\xbf", "is empty");
 }
 
-// feelpp #1198, moose #5249: a mesh of any size and at any place; what is flat is so beside its size.
+// feelpp #1198, moose #5249: a mesh of any size and at any place; what is flat is so beside its
+// size.
 TEST(ForeignMesh, IsFlatBesideItsOwnSize) {
   const auto scaled = [](double k, const std::string& z) {
     std::string text = two_surfaces;
@@ -282,7 +306,8 @@ TEST(ForeignMesh, IsFlatBesideItsOwnSize) {
 
 // meshio #281, elmerfem #923, meshlab #1582: a name can be read in a message.
 TEST(ForeignNames, AreShownAsTheyAre) {
-  for (const std::string name : {"rechte Fläche (oben)", "上面", "Ω", "🙂", "naïve \"quoted\" name"})
+  for (const std::string name :
+       {"rechte Fläche (oben)", "上面", "Ω", "🙂", "naïve \"quoted\" name"})
     EXPECT_EQ(printable(name), name);
   EXPECT_EQ(printable("上面", 1), "上...");
   EXPECT_EQ(printable("上面", 2), "上面");
@@ -297,12 +322,15 @@ TEST(ForeignNames, ChangeNeitherTheLineNorTheTerminal) {
   EXPECT_EQ(printable("\xff\xfe\xe4\xb8"), "????");  // bytes that are no UTF-8
   EXPECT_EQ(printable("Fl\xe4"
                       "che"),
-            "Fl?che");                                                  // Latin-1
-  EXPECT_EQ(printable("\xc0\x8a\xe0\x80\x8a"), "?????");                // a line feed in more bytes than it needs
-  EXPECT_EQ(printable("\xed\xa0\x80\xf4\x90\x80\x80"), "???????");      // half of a pair of UTF-16, beyond Unicode
-  EXPECT_EQ(printable("\xc2\x9b|\xe2\x80\xa8|\xe2\x80\xae"), "?|?|?");  // CSI, line separator, right to left
+            "Fl?che");                                    // Latin-1
+  EXPECT_EQ(printable("\xc0\x8a\xe0\x80\x8a"), "?????");  // a line feed in more bytes than it needs
+  EXPECT_EQ(printable("\xed\xa0\x80\xf4\x90\x80\x80"),
+            "???????");  // half of a pair of UTF-16, beyond Unicode
+  EXPECT_EQ(printable("\xc2\x9b|\xe2\x80\xa8|\xe2\x80\xae"),
+            "?|?|?");  // CSI, line separator, right to left
   EXPECT_EQ(printable("\xef\xbb\xbfx"), "?x");
-  refused(with(two_surfaces, "\"body\"", "\"corps élastique\""), "unknown surface group \"corps élastique\"");
+  refused(with(two_surfaces, "\"body\"", "\"corps élastique\""),
+          "unknown surface group \"corps élastique\"");
 }
 
 TEST(ReadNumber, TakesAllOfATextOrLeavesTheValue) {

@@ -21,11 +21,13 @@ inline std::string refusal(const std::string& script) {
 }
 
 /// The bounding boxes of the curves that gmsh has now.
-inline std::vector<std::array<double, 6>> boxes(const GmshSession& gmsh, const std::vector<int>& curves) {
+inline std::vector<std::array<double, 6>> boxes(const GmshSession& gmsh,
+                                                const std::vector<int>& curves) {
   std::vector<std::array<double, 6>> all;
   for (const int curve : curves) {
     auto& [a, b, c, d, e, f] = all.emplace_back();
-    gmsh.call<decltype(gmshModelGetBoundingBox)>("gmshModelGetBoundingBox", 1, curve, &a, &b, &c, &d, &e, &f);
+    gmsh.call<decltype(gmshModelGetBoundingBox)>("gmshModelGetBoundingBox", 1, curve, &a, &b, &c,
+                                                 &d, &e, &f);
   }
   return all;
 }

@@ -54,7 +54,8 @@ class GmshInitialized {
  private:
   template <class Function>
   static Function* function(const char* name) {
-    return reinterpret_cast<Function*>(dlsym(dlopen(ANTILOCK_GMSH_LIBRARY, RTLD_LAZY | RTLD_LOCAL), name));
+    return reinterpret_cast<Function*>(
+        dlsym(dlopen(ANTILOCK_GMSH_LIBRARY, RTLD_LAZY | RTLD_LOCAL), name));
   }
 };
 
@@ -84,18 +85,24 @@ TEST(GeometryScript, KeepsNumbersSignsAndCommandsAndRenamesVariables) {
 
 // To gmsh x~{1} is another name of x_1.
 TEST(GeometryScript, KeepsTheNumbersBehindANameOfAVariable) {
-  EXPECT_EQ(words(geometry_script("x_1 = 1; x~{2} = 2; y = x~{1}; x_1_20 = y; a_ = 1; _1 = 2; x1 = 3; x_ = x_1;")),
-            "v_1_1 = 1 ; v_1 ~ { 2 } = 2 ; v_2 = v_1 ~ { 1 } ; v_1_1_20 = v_2 ; v_3 = 1 ; v_4 = 2 ; v_5 = 3 ; "
+  EXPECT_EQ(words(geometry_script(
+                "x_1 = 1; x~{2} = 2; y = x~{1}; x_1_20 = y; a_ = 1; _1 = 2; x1 = 3; x_ = x_1;")),
+            "v_1_1 = 1 ; v_1 ~ { 2 } = 2 ; v_2 = v_1 ~ { 1 } ; v_1_1_20 = v_2 ; v_3 = 1 ; v_4 = 2 "
+            "; v_5 = 3 ; "
             "v_6 = v_1_1 ;");
 }
 
-// gmsh looks for the end of a loop that it skips letter by letter: the word behind EndFor in a name was run.
+// gmsh looks for the end of a loop that it skips letter by letter: the word behind EndFor in a name
+// was run.
 TEST(GeometryScript, KeepsNoLettersOfTheNamesOfVariables) {
-  const std::string script = geometry_script("a1EndFor1Exit = 1;\nFor i In {2:1}\na1EndFor1Exit ;\nEndFor\n");
+  const std::string script =
+      geometry_script("a1EndFor1Exit = 1;\nFor i In {2:1}\na1EndFor1Exit ;\nEndFor\n");
   EXPECT_EQ(words(script), "v_1 = 1 ; For v_2 In { 2 : 1 } v_1 ; EndFor");
 }
 
-TEST(GeometryScript, TakesAByteOrderMark) { EXPECT_EQ(words(geometry_script("\xEF\xBB\xBFh = 1;")), "v_1 = 1 ;"); }
+TEST(GeometryScript, TakesAByteOrderMark) {
+  EXPECT_EQ(words(geometry_script("\xEF\xBB\xBFh = 1;")), "v_1 = 1 ;");
+}
 
 // gmsh writes the name into 1,024 letters of its stack.
 TEST(GeometryScript, RefusesLongChainsOfNumbersBehindAName) {
@@ -119,29 +126,36 @@ TEST(GeometryScript, BreaksLongLinesBetweenTokens) {
   const std::string script = geometry_script("Spline(1) = {" + list + "};");
   EXPECT_EQ(words(script).substr(0, 26), "Spline ( 1 ) = { 1 , 2 , 3");
   std::istringstream lines(script);
-  for (std::string line; std::getline(lines, line);) EXPECT_LT(line.size(), 2200U);  // gmsh cuts from 8192 on
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_LT(line.size(), 2200U);  // gmsh cuts from 8192 on
 }
 
 TEST(GeometryScript, LeavesOutCommentsAndWhatConcernsTheMeshAlone) {
   for (const std::string nothing :
        {"// SystemCall \"touch marker\";", "/* Merge \"x\"; */", "Mesh.Algorithm = 6;", "Mesh 2;",
-        "Physical Curve(\"SystemCall 'touch marker';\", 3) = {1, 2};", "Characteristic Length {:} = 0.1;",
-        "Field[1] = MathEval; Field[1].F = \"x*y\"; Background Field = 1;", "Printf(\"%g SystemCall\", 1);",
-        "Transfinite Curve {1} = 10 Using Progression 1.1; Recombine Surface {1};", "BoundaryLayer Field = 1;"})
+        "Physical Curve(\"SystemCall 'touch marker';\", 3) = {1, 2};",
+        "Characteristic Length {:} = 0.1;",
+        "Field[1] = MathEval; Field[1].F = \"x*y\"; Background Field = 1;",
+        "Printf(\"%g SystemCall\", 1);",
+        "Transfinite Curve {1} = 10 Using Progression 1.1; Recombine Surface {1};",
+        "BoundaryLayer Field = 1;"})
     EXPECT_EQ(words(geometry_script(nothing)), "") << nothing;
 }
 
 TEST(GeometryScript, KeepsTheValuesOfConstantsAndLeavesOutTheirMenus) {
   EXPECT_EQ(
-      words(geometry_script("DefineConstant[ h = {0.1, Min 0, Name \"a/b\"}, n = 3, l() = {{1, 2}, Name \"c\"} ];")),
+      words(geometry_script(
+          "DefineConstant[ h = {0.1, Min 0, Name \"a/b\"}, n = 3, l() = {{1, 2}, Name \"c\"} ];")),
       "DefineConstant [ v_1 = { 0.1 } , v_2 = 3 , v_3 ( ) = { { 1 , 2 } } ] ;");
 }
 
 TEST(GeometryScript, KeepsLoopsAndTheKernel) {
-  EXPECT_EQ(words(geometry_script("SetFactory(\"OpenCASCADE\");\nFor i In {1:3}\n  Point(i) = {i, 0, 0};\nEndFor\n")),
+  EXPECT_EQ(words(geometry_script(
+                "SetFactory(\"OpenCASCADE\");\nFor i In {1:3}\n  Point(i) = {i, 0, 0};\nEndFor\n")),
             "SetFactory ( \"OpenCASCADE\" ) ; For v_1 In { 1 : 3 } Point ( v_1 ) = { v_1 , 0 , 0 } "
             "; EndFor");
-  EXPECT_EQ(words(geometry_script("For (1:2)\n p = newp;\nEndFor")), "For ( 1 : 2 ) v_1 = newp ; EndFor");
+  EXPECT_EQ(words(geometry_script("For (1:2)\n p = newp;\nEndFor")),
+            "For ( 1 : 2 ) v_1 = newp ; EndFor");
 }
 
 TEST(GeometryScript, RefusesByNameAndLineWhatRunsReadsOrWrites) {
@@ -211,11 +225,13 @@ TEST(GeometryScript, RefusesByNameAndLineWhatRunsReadsOrWrites) {
 
 TEST(GeometryScript, RefusesOddSpellings) {
   for (const std::string script :
-       {"SystemCall'touch marker';", "SystemCall/**/\"touch marker\";", "SystemCall\t\f\"touch marker\";",
-        "SystemCall \"touch\nmarker\";", "a = 1;SystemCall\"touch marker\";", "/*/*/SystemCall \"touch marker\";",
+       {"SystemCall'touch marker';", "SystemCall/**/\"touch marker\";",
+        "SystemCall\t\f\"touch marker\";", "SystemCall \"touch\nmarker\";",
+        "a = 1;SystemCall\"touch marker\";", "/*/*/SystemCall \"touch marker\";",
         "/* /* */ SystemCall \"touch marker\"; /* */", "SystemCall StrCat(\"touch\", \" marker\");",
-        "SystemCall \"touch marker\"", "{ SystemCall \"touch marker\"; }", "Surface { SystemCall \"touch marker\"; };",
-        "a() = { SystemCall };", "SystemCall = 1; SystemCall 2; System \"a\";"})
+        "SystemCall \"touch marker\"", "{ SystemCall \"touch marker\"; }",
+        "Surface { SystemCall \"touch marker\"; };", "a() = { SystemCall };",
+        "SystemCall = 1; SystemCall 2; System \"a\";"})
     EXPECT_NE(refusal(script), "") << script;
   // a name that the script assigns is a variable: the text behind it is refused
   expect_refused("SystemCall = 1;\nSystemCall \"touch marker\";", 2, "\"touch marker\"");
@@ -224,7 +240,8 @@ TEST(GeometryScript, RefusesOddSpellings) {
   // a text ends at the next quotation mark, whatever stands before it
   expect_refused("Printf(\"a\\\");\nSystemCall \"touch marker\"; //\");", 2, "SystemCall");
   expect_refused("Printf('a\"');\nSystemCall \"touch marker\";", 2, "SystemCall");
-  expect_refused("Physical Point(\"/*\") = {1};\nSystemCall \"touch marker\"; // */", 2, "SystemCall");
+  expect_refused("Physical Point(\"/*\") = {1};\nSystemCall \"touch marker\"; // */", 2,
+                 "SystemCall");
   expect_refused("// /*\nSystemCall \"touch marker\"; // */", 2, "SystemCall");
   // carriage returns end no comment, for gmsh as well
   EXPECT_EQ(words(geometry_script("// \rSystemCall \"touch marker\";")), "");
@@ -283,8 +300,9 @@ TEST(GeometryScript, RefusesCommandsThatAreNamesOutsideOfTheirForm) {
     }
   expect_refused("x = Boundary(0) { Line{1}; };", 1, "Boundary");
   expect_refused("Line Loop{1};", 1, "Loop");
-  EXPECT_EQ(words(geometry_script("Line Loop(newcl) = {1}; Curve Loop(2) = {1}; Surface Loop(1) = {1}; b() = "
-                                  "Boundary{ Surface{1}; }; Translate {1, 0, 0} { Duplicata{ Curve{1}; } }")),
+  EXPECT_EQ(words(geometry_script(
+                "Line Loop(newcl) = {1}; Curve Loop(2) = {1}; Surface Loop(1) = {1}; b() = "
+                "Boundary{ Surface{1}; }; Translate {1, 0, 0} { Duplicata{ Curve{1}; } }")),
             "Line Loop ( newll ) = { 1 } ; Curve Loop ( 2 ) = { 1 } ; Surface Loop ( 1 ) = { 1 } ; "
             "v_1 ( ) = Boundary { Surface { 1 } ; } ; Translate { 1 , 0 , 0 } { Duplicata { Curve "
             "{ 1 } ; } }");
@@ -306,30 +324,35 @@ TEST(GeometryScript, LeavesOutNoEffect) {
            {"DefineConstant[ a = {1, Min n++, Name \"a\"} ];", "++"},
            {"DefineConstant[ a = {1, Name Str(\"a\")} ];", "Name"},
            {"DefineConstant[ a = {1, Choices{1=\"a\", n++=\"b\"}} ];", "++"},
-           {"Physical Surface(1) = BooleanDifference{ Surface{1}; }{ Surface{2}; };", "BooleanDifference"},
+           {"Physical Surface(1) = BooleanDifference{ Surface{1}; }{ Surface{2}; };",
+            "BooleanDifference"},
            {"Physical Curve(1) = ThruSections{1, 2};", "ThruSections"}})
     expect_refused("n = 1;\n" + left_out, 2, name);
-  for (const std::string word :
-       {"Translate", "Rotate", "Symmetry", "Dilate", "Affine", "Extrude", "BooleanUnion", "BooleanIntersection",
-        "BooleanFragments", "Duplicata", "Boundary", "CombinedBoundary", "PointsOf"})
+  for (const std::string word : {"Translate", "Rotate", "Symmetry", "Dilate", "Affine", "Extrude",
+                                 "BooleanUnion", "BooleanIntersection", "BooleanFragments",
+                                 "Duplicata", "Boundary", "CombinedBoundary", "PointsOf"})
     expect_refused("\nPhysical Curve(\"top\") = " + word + "{0, 1, 0}{ Curve{1}; };", 2, word);
   for (const std::string kept :
-       {"Periodic Curve {1} = {2} Translate {0, 1, 0};", "n = 1; Physical Curve(n + 1) += {n, 3:4};",
-        "Transfinite Surface {1} = {1, 2, 3, 4} AlternateLeft;", "Field[1].F = Sprintf(\"x*%g\", 1);",
+       {"Periodic Curve {1} = {2} Translate {0, 1, 0};",
+        "n = 1; Physical Curve(n + 1) += {n, 3:4};",
+        "Transfinite Surface {1} = {1, 2, 3, 4} AlternateLeft;",
+        "Field[1].F = Sprintf(\"x*%g\", 1);",
         "DefineConstant[ a = {1, Min 0, Max 2, Step 1, Choices{1=\"a\", 2=\"b\"}, Name \"a\"} ];"})
     EXPECT_EQ(refusal(kept), "") << kept;
 }
 
 // gmsh counts groups and fields that are left out.
 TEST(GeometryScript, RefusesNumbersThatCountWhatIsLeftOut) {
-  for (const std::string number : {"newreg", "newl", "newc", "newll", "newcl", "news", "newsl", "newv"}) {
+  for (const std::string number :
+       {"newreg", "newl", "newc", "newll", "newcl", "news", "newsl", "newv"}) {
     const std::string use = "p = " + number + ";\n", physical = "Physical Curve(100) = {1};\n";
     EXPECT_EQ(refusal(use + physical), "");
     expect_refused(physical + use, 2, number);
     expect_refused("For i In {1:2}\n" + use + physical + "EndFor\n", 2, number);
   }
   expect_refused("Physical Curve(9) = {1};\nExtrude {0, 0, 1} { Curve{1}; }", 2, "Extrude");
-  expect_refused("Physical Curve(9) = {1};\nx() = Translate {0, 0, 1} { Duplicata{ Curve{1}; } };", 2, "Duplicata");
+  expect_refused("Physical Curve(9) = {1};\nx() = Translate {0, 0, 1} { Duplicata{ Curve{1}; } };",
+                 2, "Duplicata");
   EXPECT_EQ(refusal("f = newf; Field[f] = Box; Field[f].VIn = 1; Background Field = f;"), "");
   expect_refused("f = newf;\nLine(1) = {1, f};", 2, "f");
   expect_refused("f = newf;\nf += 1;", 2, "f");
@@ -350,8 +373,9 @@ TEST(GeometryScript, RefusesWhatGmshReadsInItsOwnWay) {
   // comments behind a loop's header or its end that are not over with the line
   const std::string body = "\nx = i;\nEndFor", tail = "\nx = 1;";
   for (const std::string& comment :
-       {std::string("/*\nx = 1; // */"), std::string("/* a */ /* b\n */"), std::string("// a \r x = 1;"),
-        std::string("/* \r */"), "// " + std::string(9000, ' ') + "x = 1;"}) {
+       {std::string("/*\nx = 1; // */"), std::string("/* a */ /* b\n */"),
+        std::string("// a \r x = 1;"), std::string("/* \r */"),
+        "// " + std::string(9000, ' ') + "x = 1;"}) {
     expect_refused("\nFor i In {1:3} " + comment + body, 2, "For");
     expect_refused("For (1:3) " + comment + "\nx = 1;\nEndFor", 1, "For");
     expect_refused("For i In {1:3}" + body + " " + comment + tail, 3, "EndFor");
@@ -359,22 +383,24 @@ TEST(GeometryScript, RefusesWhatGmshReadsInItsOwnWay) {
   }
   EXPECT_EQ(refusal("For i In {1:3} /* thrice */ // \r\n/*\n*/\r\nx = i;\r\nEndFor // done"), "");
   expect_refused("DefineConstant[ a = {1, Name \"x\"},\nb = {2, Name \"x\"} ];", 2, "\"x\"");
-  expect_refused("DefineConstant[ a = {1, Name \"x\"} ];\nDefineConstant[ b = {2, Name 'x'} ];", 2, "'x'");
+  expect_refused("DefineConstant[ a = {1, Name \"x\"} ];\nDefineConstant[ b = {2, Name 'x'} ];", 2,
+                 "'x'");
   expect_refused("x = Rand(1);", 1, "Rand");
   expect_refused("x = 0." + std::string(99, '1') + ";", 1, "0.11111111");
   EXPECT_EQ(refusal("x = 0." + std::string(98, '1') + ";"), "");
 }
 
-// gmsh checks the upper bound of an index alone. Others are divisions by zero, wherever the brackets
-// stand.
+// gmsh checks the upper bound of an index alone. Others are divisions by zero, wherever the
+// brackets stand.
 TEST(GeometryScript, KeepsEveryIndexFromZeroOn) {
   const std::string before = "l() = {1}; k~{1} = {1}; ", three = guarded("- 3");
-  for (const auto& [index, kept] : {std::pair<std::string, std::string>{"l[-3] = 1;", "v_1 [ " + three + " ] = 1 ;"},
-                                    {"l(-3) = 1;", "v_1 ( " + three + " ) = 1 ;"},
-                                    {"x = l /* */ [-3];", "v_3 = v_1 [ " + three + " ] ;"},
-                                    {"x = k~{1}[-3];", "v_3 = v_2 ~ { 1 } [ " + three + " ] ;"},
-                                    {"k~{1}~{2}(-3)++;", "v_2 ~ { 1 } ~ { 2 } ( " + three + " ) ++ ;"},
-                                    {"x = l[l[-3]];", "v_3 = v_1 [ " + guarded("v_1 [ " + three + " ]") + " ] ;"}}) {
+  for (const auto& [index, kept] :
+       {std::pair<std::string, std::string>{"l[-3] = 1;", "v_1 [ " + three + " ] = 1 ;"},
+        {"l(-3) = 1;", "v_1 ( " + three + " ) = 1 ;"},
+        {"x = l /* */ [-3];", "v_3 = v_1 [ " + three + " ] ;"},
+        {"x = k~{1}[-3];", "v_3 = v_2 ~ { 1 } [ " + three + " ] ;"},
+        {"k~{1}~{2}(-3)++;", "v_2 ~ { 1 } ~ { 2 } ( " + three + " ) ++ ;"},
+        {"x = l[l[-3]];", "v_3 = v_1 [ " + guarded("v_1 [ " + three + " ]") + " ] ;"}}) {
     const std::string script = words(geometry_script(before + index));
     EXPECT_EQ(script.substr(script.size() - kept.size()), kept) << script;
   }
@@ -420,12 +446,15 @@ TEST(GeometryScript, DrawsWhatTheFileDraws) {
 TEST(GeometryScript, ReportsAnIndexOutsideOfItsList) {
   const std::string line = "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; l() = {0:1e6};\n";
   const auto end = [&](const std::string& index) {
-    const std::string script = line + "x = l(" + index + ");\nPoint(3) = {2 + x, 0, 0}; Line(1) = {1, 3};";
+    const std::string script =
+        line + "x = l(" + index + ");\nPoint(3) = {2 + x, 0, 0}; Line(1) = {1, 3};";
     return boxes_of({"index.geo", geometry_script(script)}).at(0)[3] - 2;
   };
   for (const double index : {0., 1., 3., 49., 999999., 1e6})
-    EXPECT_NEAR(end(std::to_string(index)), index, 1e-3) << index;  // gmsh's boxes are wider by 1e-7
-  for (const std::string index : {"-1", "-1e-3", "-1e8", "1e6 + 1", "3e9", "-3e9", "Sqrt(-1)", "1e999"})
+    EXPECT_NEAR(end(std::to_string(index)), index, 1e-3)
+        << index;  // gmsh's boxes are wider by 1e-7
+  for (const std::string index :
+       {"-1", "-1e-3", "-1e8", "1e6 + 1", "3e9", "-3e9", "Sqrt(-1)", "1e999"})
     EXPECT_THROW(end(index), Error) << index;
   for (const std::string bad : {"l(-1) = 1;", "l[-1e8]++;", "l(2e6) = 1;", "x = l(-1)++;"})
     EXPECT_THROW(boxes_of({"index.geo", geometry_script(line + bad)}), Error) << bad;
@@ -433,7 +462,8 @@ TEST(GeometryScript, ReportsAnIndexOutsideOfItsList) {
 
 TEST(GeometryScript, IsReadOnceAndNothingLiesBesideIt) {
   const TemporaryFolder folder;
-  const std::string marker = (folder / "marker").string(), command = "SystemCall \"touch " + marker + "\";\n";
+  const std::string marker = (folder / "marker").string(),
+                    command = "SystemCall \"touch " + marker + "\";\n";
   std::ofstream(folder / "body.geo") << built_in;
   std::ofstream(folder / "body.geo.opt") << command;  // gmsh merges it with body.geo
   const Geometry geometry = read_geometry(folder / "body.geo");
@@ -446,8 +476,9 @@ TEST(GeometryScript, IsReadOnceAndNothingLiesBesideIt) {
 
 TEST(GeometryScript, WithASyntaxErrorLeavesNothingForTheNextOne) {
   const auto drawn = boxes_of({"body.geo", geometry_script(built_in)});
-  for (const std::string bad : {"Point(1) = {1 1}; Point(2) = {0, 0, 0}; Point(3) = {1, 0, 0}; Line(77) = {2, 3};\n",
-                                "For i In {1:3}\n Point(i) = {1 1}; EndFor", "Point(1) = {,,,,,};;;", "Line(1) = {1};"})
+  for (const std::string bad :
+       {"Point(1) = {1 1}; Point(2) = {0, 0, 0}; Point(3) = {1, 0, 0}; Line(77) = {2, 3};\n",
+        "For i In {1:3}\n Point(i) = {1 1}; EndFor", "Point(1) = {,,,,,};;;", "Line(1) = {1};"})
     for (int twice = 0; twice < 2; ++twice) {
       EXPECT_THROW(boxes_of({"bad.geo", geometry_script(bad)}), Error) << bad;
       EXPECT_EQ(boxes_of({"body.geo", geometry_script(built_in)}), drawn) << bad;
@@ -458,7 +489,8 @@ TEST(GeometryScript, WithASyntaxErrorLeavesNothingForTheNextOne) {
 TEST(GeometryScript, LeavesNeitherASphereNorAKernelToTheNextOne) {
   const auto drawn = boxes_of({"body.geo", geometry_script(built_in)});
   const std::string sphere = "Sphere(100) = {1, 2};\n", on_it = "Point(50) = {0, 0, 0};\n";
-  for (const std::string& left : {sphere, sphere + on_it, std::string("SetFactory(\"OpenCASCADE\");\n")}) {
+  for (const std::string& left :
+       {sphere, sphere + on_it, std::string("SetFactory(\"OpenCASCADE\");\n")}) {
     const Geometry good{"body.geo", geometry_script(built_in + left)};
     const Geometry bad{"bad.geo", geometry_script(built_in + left + "Line(1) = {1};")};
     for (int twice = 0; twice < 2; ++twice) EXPECT_EQ(boxes_of(good), drawn) << left;
@@ -469,11 +501,13 @@ TEST(GeometryScript, LeavesNeitherASphereNorAKernelToTheNextOne) {
 
 // gmsh keeps variables and options beyond the end of a model.
 TEST(GeometryScript, LeavesNeitherVariablesNorOptionsToTheNextOne) {
-  const std::string constant = built_in + "DefineConstant[ a = {0.25, Name \"a\"} ];\nPoint(90) = {3 + a, 0, 0};\n" +
-                               "l[] += {1};\nPoint(91) = {3, #l[], 0};\nLine(90) = {90, 91};\n";
+  const std::string constant =
+      built_in + "DefineConstant[ a = {0.25, Name \"a\"} ];\nPoint(90) = {3 + a, 0, 0};\n" +
+      "l[] += {1};\nPoint(91) = {3, #l[], 0};\nLine(90) = {90, 91};\n";
   const Geometry geometry{"constant.geo", geometry_script(constant)};
-  const Geometry other{"other.geo",
-                       geometry_script(built_in + "b = 7;\nc[] = {1, 2, 3};\nGeometry.Tolerance = 0.5;\n")};
+  const Geometry other{
+      "other.geo",
+      geometry_script(built_in + "b = 7;\nc[] = {1, 2, 3};\nGeometry.Tolerance = 0.5;\n")};
   const auto drawn = boxes_of(geometry);
   const GmshInitialized caller;  // the sessions below are within that of their caller
   const double before = caller.number("Geometry.Tolerance");
@@ -501,7 +535,8 @@ TEST(GeometryScript, OfABrepIsNotNeededSinceItIsDataWhateverItHolds) {
   EXPECT_FALSE(std::filesystem::exists(marker));
 
   std::filesystem::remove(file + ".opt");
-  for (const std::string& text : {command, std::string(), std::string("DBRep_DrawableShape\nnothing")}) {
+  for (const std::string& text :
+       {command, std::string(), std::string("DBRep_DrawableShape\nnothing")}) {
     std::ofstream(file) << text;
     EXPECT_THROW(boxes_of(read_geometry(file)), Error) << text;
     EXPECT_FALSE(std::filesystem::exists(marker));
@@ -517,8 +552,8 @@ TEST(GeometryScript, IsOfAFileGeoOrBrep) {
   std::ofstream(folder / "empty.brep");
   std::filesystem::create_symlink("/proc/kmsg", folder / "kernel.brep");
   std::ofstream(folder / "large.geo") << std::string((4 << 20) + 1, ' ');
-  for (const std::string name :
-       {"body.step", "body.geo.gz", "folder.geo", "pipe.geo", "large.geo", "absent.geo", "empty.brep", "kernel.brep"})
+  for (const std::string name : {"body.step", "body.geo.gz", "folder.geo", "pipe.geo", "large.geo",
+                                 "absent.geo", "empty.brep", "kernel.brep"})
     EXPECT_THROW(read_geometry(folder / name), Error) << name;
 }
 

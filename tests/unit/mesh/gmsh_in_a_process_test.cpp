@@ -1,5 +1,6 @@
-// gmsh has one state per process, and its initialisation changes the process: meshes are made from several threads, and
-// the program that asks for them finds its locale, its environment and its own models of gmsh as they were.
+// gmsh has one state per process, and its initialisation changes the process: meshes are made from
+// several threads, and the program that asks for them finds its locale, its environment and its own
+// models of gmsh as they were.
 #include <dlfcn.h>
 #include <gmshc.h>
 
@@ -56,8 +57,8 @@ TEST_F(GmshInAProcess, MakesMeshesForSeveralThreads) {
   }
 }
 
-// vtk-dicom #130, meshlab #39, Rcs #5: a library that was called has changed the locale of the process. gmsh takes that of
-// the environment, with C for numbers.
+// vtk-dicom #130, meshlab #39, Rcs #5: a library that was called has changed the locale of the
+// process. gmsh takes that of the environment, with C for numbers.
 TEST_F(GmshInAProcess, LeavesTheLocaleAndTheEnvironment) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   ASSERT_NE(std::setlocale(LC_ALL, "C.UTF-8"), nullptr) << "every Debian has this locale";
@@ -76,7 +77,8 @@ TEST_F(GmshInAProcess, LeavesTheLocaleAndTheEnvironment) {
   std::setlocale(LC_ALL, before.c_str());
 }
 
-// FLTK, with which gmsh draws its windows, writes preferences, and the end of gmsh removes .gmsh-tmp.
+// FLTK, with which gmsh draws its windows, writes preferences, and the end of gmsh removes
+// .gmsh-tmp.
 TEST_F(GmshInAProcess, ChangesNothingInTheHome) {
   const TemporaryFolder home;
   std::ofstream(home / ".gmsh-tmp") << "the user's";
@@ -93,7 +95,8 @@ TEST_F(GmshInAProcess, ChangesNothingInTheHome) {
   if (before == nullptr) ::unsetenv("HOME");
 }
 
-// The same mesh where the numbers of the process have a decimal comma; where no such locale is installed, as before.
+// The same mesh where the numbers of the process have a decimal comma; where no such locale is
+// installed, as before.
 TEST_F(GmshInAProcess, ReadsAndWritesNumbersWithAPoint) {
   const TriangleMesh plain = unstructured_mesh(6);
   for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.utf8"})

@@ -26,7 +26,8 @@ TEST(GradedMesh, KeepsTheEndsAndThePointBetweenCellsOfTheWidth) {
 }
 
 TEST(GradedMesh, EachLayerLeavesItsShareNextToThePoint) {
-  const std::vector<double> x = lines_in_x(graded_mesh(0.5, 0.5, 4, 0.2, 1));  // one cell on each side, cut 4 times
+  const std::vector<double> x =
+      lines_in_x(graded_mesh(0.5, 0.5, 4, 0.2, 1));  // one cell on each side, cut 4 times
   ASSERT_EQ(x.size(), 11u);
   for (int k = 0; k <= 4; ++k) {
     EXPECT_NEAR(x[10 - k] - 0.5, 0.5 * std::pow(0.2, k), 1e-15);
@@ -36,7 +37,8 @@ TEST(GradedMesh, EachLayerLeavesItsShareNextToThePoint) {
 
 TEST(TensorMesh, OfEqualLinesIsTheStructuredMesh) {
   for (const Diagonal diagonal : {Diagonal::right, Diagonal::left, Diagonal::crossed})
-    expect_same(tensor_mesh({0, 0.25, 0.5, 0.75, 1}, {-1, -0.75, -0.5, -0.25, 0, 0.25, 0.5, 0.75, 1}, diagonal),
+    expect_same(tensor_mesh({0, 0.25, 0.5, 0.75, 1},
+                            {-1, -0.75, -0.5, -0.25, 0, 0.25, 0.5, 0.75, 1}, diagonal),
                 structured_mesh(4, {}, diagonal));
 }
 
@@ -48,22 +50,26 @@ TEST(GradedMesh, FillsTheTwoSquaresWithTaggedSides) {
   }
 }
 
-// Layers wider than epsilon have rows above Sigma, the others above Gamma_C: at epsilon = 1 all of them there, at 0 none.
+// Layers wider than epsilon have rows above Sigma, the others above Gamma_C: at epsilon = 1 all of
+// them there, at 0 none.
 TEST(GradedMesh, PutsARowWhereALayerIsFelt) {
-  const auto lowest = [](const TriangleMesh& mesh, double above) {  // the height of the first row above a line
+  const auto lowest = [](const TriangleMesh& mesh,
+                         double above) {  // the height of the first row above a line
     double least = 1;
     for (int v = 0; v < mesh.vertex_count(); ++v)
       if (mesh.vertices(v, 1) > above) least = std::min(least, mesh.vertices(v, 1) - above);
     return least;
   };
-  for (const auto& [epsilon, in_body] : {std::pair{1.0, 0}, {0.1, 2}, {1e-2, 4}, {1e-6, 6}, {0.0, 6}}) {
+  for (const auto& [epsilon, in_body] :
+       {std::pair{1.0, 0}, {0.1, 2}, {1e-2, 4}, {1e-6, 6}, {0.0, 6}}) {
     const TriangleMesh mesh = graded_mesh(0.5, 0.5, 6, 0.25, epsilon);
     EXPECT_NEAR(lowest(mesh, 0), 0.5 * std::pow(0.25, in_body), 1e-15) << epsilon;
     EXPECT_NEAR(lowest(mesh, -1), 0.5 * std::pow(0.25, 6 - in_body), 1e-15) << epsilon;
   }
 }
 
-// Columns, however narrow: G_h on the layer is every function of x, n p - 1 of them, for every degree.
+// Columns, however narrow: G_h on the layer is every function of x, n p - 1 of them, for every
+// degree.
 TEST(GradedMesh, LeavesNoDegreeLocked) {
   const TriangleMesh mesh = graded_mesh(0.5, 0.5, 2, 0.25, 0.1);  // 6 columns
   for (int degree = 1; degree <= 6; ++degree) {

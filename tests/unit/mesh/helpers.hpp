@@ -24,8 +24,10 @@ inline int count(const TriangleMesh& mesh, EdgeTag tag) {
   return static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), tag));
 }
 
-/// The unit square and the layer of `depth` below it, with their tagged sides, which are fewer terms than the areas.
-inline void expect_two_squares(const TriangleMesh& mesh, double depth, double within, const std::string& name) {
+/// The unit square and the layer of `depth` below it, with their tagged sides, which are fewer
+/// terms than the areas.
+inline void expect_two_squares(const TriangleMesh& mesh, double depth, double within,
+                               const std::string& name) {
   EXPECT_NEAR(area(mesh, Region::body), 1, within) << name;
   EXPECT_NEAR(area(mesh, Region::layer), depth, within) << name;
   EXPECT_NEAR(length(mesh, EdgeTag::contact), 1, within / 10) << name;

@@ -26,23 +26,27 @@ TEST(ExtrudedLayer, FillsTheLayerUnderSigmaAndNothingElse) {
   for (const Case& c : bodies())
     for (const double epsilon : {1.0, 0.3, 0.0}) {
       const TriangleMesh mesh = extruded(c.body, epsilon);
-      EXPECT_EQ(mesh.vertices.topRows(c.body.vertex_count()), c.body.vertices) << "first, and in its order";
+      EXPECT_EQ(mesh.vertices.topRows(c.body.vertex_count()), c.body.vertices)
+          << "first, and in its order";
       EXPECT_EQ(mesh.triangles.topRows(c.body.triangle_count()), c.body.triangles);
       EXPECT_NEAR(area(mesh, Region::body), c.body_area, 1e-12) << c.name;
       EXPECT_NEAR(area(mesh, Region::layer), c.sigma, 1e-12) << c.name;
       EXPECT_NEAR(length(mesh, EdgeTag::sigma), c.sigma, 1e-12) << c.name;
       EXPECT_NEAR(length(mesh, EdgeTag::contact), c.sigma, 1e-12) << c.name;
-      EXPECT_NEAR(length(mesh, EdgeTag::clamped), c.outline + 2 * c.feet, 1e-12) << c.name;  // sides of depth 1
+      EXPECT_NEAR(length(mesh, EdgeTag::clamped), c.outline + 2 * c.feet, 1e-12)
+          << c.name;  // sides of depth 1
       for (int e = 0; e < mesh.edge_count(); ++e) {
         if (mesh.edge_tag[e] != EdgeTag::contact) continue;
-        for (const int v : {mesh.edges(e, 0), mesh.edges(e, 1)}) EXPECT_EQ(mesh.vertices(v, 1), -1) << c.name;
+        for (const int v : {mesh.edges(e, 0), mesh.edges(e, 1)})
+          EXPECT_EQ(mesh.vertices(v, 1), -1) << c.name;
       }
     }
 }
 
 TEST(ExtrudedLayer, HasCellsThatAreSquareInTheTrueLayer) {
   const TriangleMesh body = structured_mesh(8, {0});
-  for (const auto& [epsilon, rows] : {std::pair{1.0, 8}, {0.5, 4}, {0.51, 5}, {0.125, 1}, {1e-6, 1}, {0.0, 1}}) {
+  for (const auto& [epsilon, rows] :
+       {std::pair{1.0, 8}, {0.5, 4}, {0.51, 5}, {0.125, 1}, {1e-6, 1}, {0.0, 1}}) {
     const TriangleMesh mesh = extruded(body, epsilon);
     EXPECT_EQ(mesh.triangle_count(), body.triangle_count() + 2 * 8 * rows) << epsilon;
     EXPECT_EQ(mesh.vertex_count(), body.vertex_count() + 9 * rows) << epsilon;
@@ -64,59 +68,69 @@ TEST(ExtrudedLayer, OfAStructuredBodyIsFigureThree) {
   EXPECT_NEAR(least(mesh), least(figure), 1e-10);
 }
 
-// B v = 0 on every triangle of a column makes v equal at all its vertices: one function per column that is free.
+// B v = 0 on every triangle of a column makes v equal at all its vertices: one function per column
+// that is free.
 TEST(ExtrudedLayer, LeavesP1OneFunctionInTheKernelPerInteriorColumn) {
   for (const Case& c : bodies())
     for (const double epsilon : {1.0, 0.0}) {
       const TriangleMesh mesh = extruded(c.body, epsilon);
       const Space space(mesh, p1());
       const int interior = count(mesh, EdgeTag::sigma) - c.feet;
-      EXPECT_EQ(layer_kernel_dimension(test::stiff_problem(space, 0)), interior) << c.name << epsilon;
+      EXPECT_EQ(layer_kernel_dimension(test::stiff_problem(space, 0)), interior)
+          << c.name << epsilon;
     }
 }
 
-/// Half of the ring between r = 1 and `held`, 2 or 1/2, its bottom Sigma = Gamma_C at r = 1; free on y = 0, held at the
-/// other radius.
+/// Half of the ring between r = 1 and `held`, 2 or 1/2, its bottom Sigma = Gamma_C at r = 1; free
+/// on y = 0, held at the other radius.
 TriangleMesh half_ring(int cells, double held) {
   TriangleMesh mesh = structured_mesh(cells, {0});
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_tag[e] == EdgeTag::clamped)
-      mesh.edge_tag[e] = mesh.vertices(mesh.edges.row(e), 1).minCoeff() == 1 ? dirichlet_group(1) : natural_group(0);
+      mesh.edge_tag[e] = mesh.vertices(mesh.edges.row(e), 1).minCoeff() == 1 ? dirichlet_group(1)
+                                                                             : natural_group(0);
   for (auto row : mesh.vertices.rowwise()) {
-    const double r = 1 + (held - 1) * row(1), angle = std::numbers::pi * (held > 1 ? 1 - row(0) : 1 + row(0));
+    const double r = 1 + (held - 1) * row(1),
+                 angle = std::numbers::pi * (held > 1 ? 1 - row(0) : 1 + row(0));
     row << r * std::cos(angle), r * std::sin(angle);
   }
   return mesh;
 }
 
-// u = x at the held radius gives u = (a r + b / r) cos in the ring and (c r + d / r) cos in a layer of thickness t and
-// modulus s / t, natural at its far side r = rho: c = d / rho^2, a + b = c + d, a - b = (s / t) (c - d). Of order h^2, as the
-// polygon is: with J left out the error stays at 2 % and more.
+// u = x at the held radius gives u = (a r + b / r) cos in the ring and (c r + d / r) cos in a layer
+// of thickness t and modulus s / t, natural at its far side r = rho: c = d / rho^2, a + b = c + d,
+// a - b = (s / t) (c - d). Of order h^2, as the polygon is: with J left out the error stays at 2 %
+// and more.
 TEST(ExtrudedLayer, AlongNormalsIsTheLayerOfARing) {
   const double t = 0.3, s = 0.5;
   const auto zero = [](double, double) { return 0.0; };
   const std::vector<BoundaryCondition> edges{
-      {"sides"}, {"held", BoundaryCondition::Kind::displacement, [](double x, double) { return x; }}};
+      {"sides"},
+      {"held", BoundaryCondition::Kind::displacement, [](double x, double) { return x; }}};
   for (const double held : {2.0, 0.5})
     for (const Element* element : {&p1(), &crouzeix_raviart(), &p2()}) {
       const double rho = held > 1 ? 1 - t : 1 + t, w = 1 / (rho * rho);
-      double a = (1 + w) + s / t * (w - 1), b = (1 + w) - s / t * (w - 1), scale = held / (a * held + b / held);
+      double a = (1 + w) + s / t * (w - 1), b = (1 + w) - s / t * (w - 1),
+             scale = held / (a * held + b / held);
       a *= scale, b *= scale;
       std::vector<double> errors;
       for (const int cells : {8, 16, 32}) {
         const TriangleMesh mesh = extruded(half_ring(cells, held), t, true);
         const Space space(mesh, *element);
-        const Solution u = active_set(assemble(Scene(Body{zero}, StiffLayer{t, s}, {}, edges), space));
+        const Solution u =
+            active_set(assemble(Scene(Body{zero}, StiffLayer{t, s}, {}, edges), space));
         double error = 0;
         for (int k = 0; k < mesh.triangle_count(); ++k)
           for (const int i : space.cell_dofs().row(k)) {
             const Eigen::RowVector2d x = space.dof_coordinates().row(i);
             const double r = x.norm();
-            if (mesh.region[k] == Region::body) error = std::max(error, std::abs(u.u(i) - (a + b / (r * r)) * x(0)));
+            if (mesh.region[k] == Region::body)
+              error = std::max(error, std::abs(u.u(i) - (a + b / (r * r)) * x(0)));
           }
         for (const int i : space.contact_dofs()) {
           const Eigen::RowVector2d foot = space.dof_coordinates().row(i) + Eigen::RowVector2d(0, 1);
-          error = std::max(error, std::abs(u.u(i) - scale * (2 * w * rho + 2 / rho) * foot(0) / foot.norm()));
+          error = std::max(
+              error, std::abs(u.u(i) - scale * (2 * w * rho + 2 / rho) * foot(0) / foot.norm()));
         }
         errors.push_back(error);
       }
@@ -128,7 +142,8 @@ TEST(ExtrudedLayer, AlongNormalsIsTheLayerOfARing) {
 TEST(ExtrudedLayer, AlongNormalsIsRefusedWhereThereIsNoSuchLayer) {
   TriangleMesh ring = half_ring(8, 2), turned = ring;
   expect_refused([&] { extruded(ring, 1, true); }, "meets itself");
-  TriangleMesh slot = test::submesh(8, [](double x, double y) { return y < 0.25 || y > 0.5 || x < 0.25; });
+  TriangleMesh slot =
+      test::submesh(8, [](double x, double y) { return y < 0.25 || y > 0.5 || x < 0.25; });
   for (int e = 0; e < slot.edge_count(); ++e)
     if (slot.edge_triangles(e, 1) < 0 && (slot.vertices(slot.edges.row(e), 1).array() == 0.5).all())
       slot.edge_tag[e] = EdgeTag::contact;
@@ -141,8 +156,9 @@ TEST(ExtrudedLayer, AlongNormalsIsRefusedWhereThereIsNoSuchLayer) {
   expect_refused([&] { extruded(ring, 0.1, true); }, "a displacement is given at");
   const TriangleMesh grown = extruded(half_ring(8, 2), 0.1, true);
   const Space space(grown, p1());
-  const Scene scene(Body{paper_load}, StiffLayer{0.1}, UnilateralContact{[](double) { return 1.0; }},
-                    {{"in"}, {"out", BoundaryCondition::Kind::displacement, [](double, double) { return 0; }}});
+  const Scene scene(
+      Body{paper_load}, StiffLayer{0.1}, UnilateralContact{[](double) { return 1.0; }},
+      {{"in"}, {"out", BoundaryCondition::Kind::displacement, [](double, double) { return 0; }}});
   expect_refused([&] { SceneSweep(scene, space).set_epsilon(0.2); }, "along normals");
   expect_refused([&] { solve_to(scene, grown, {0.1}); }, "along the normals");
   TriangleMesh forgotten = grown;

@@ -53,15 +53,16 @@ TEST(GeometryScript, WithoutTheRewritingLeavesTraces) {
   const Traces of_a_call = traces_of([] { draw("SystemCall \"touch marker\";\n"); });
   EXPECT_EQ(of_a_call.files, 1);
   EXPECT_TRUE(of_a_call.started);
-  const Traces in_the_background = traces_of([] { draw("NonBlockingSystemCall \"sleep 0.1\";\n"); });
+  const Traces in_the_background =
+      traces_of([] { draw("NonBlockingSystemCall \"sleep 0.1\";\n"); });
   EXPECT_TRUE(in_the_background.started);
   const Traces of_nothing = traces_of([] { draw("Point(1) = {0, 0, 0};\n"); });
   EXPECT_EQ(of_nothing.files, 0);
   EXPECT_FALSE(of_nothing.started || of_nothing.crashed);
 }
 
-// A word that keeps its spelling and that gmsh takes for a variable would have an index that nothing
-// guards: 8e8 bytes before its list lies no memory, so that the child crashes.
+// A word that keeps its spelling and that gmsh takes for a variable would have an index that
+// nothing guards: 8e8 bytes before its list lies no memory, so that the child crashes.
 TEST(GeometryScript, KeepsNoCommandThatGmshTakesForAVariable) {
   boxes_of({"empty.geo", "\n"});  // gmsh is loaded before the forks
   const std::string far = "(-100000000)";
@@ -73,7 +74,8 @@ TEST(GeometryScript, KeepsNoCommandThatGmshTakesForAVariable) {
     const std::string list = word + "() = {1};\n" + word;
     std::vector<std::string> scripts;
     for (const std::string& script :
-         {list + far + " = 1;", list + far + "++;", word + "[] = {1}; " + word + "[-100000000] = 1;",
+         {list + far + " = 1;", list + far + "++;",
+          word + "[] = {1}; " + word + "[-100000000] = 1;",
           word + " += {1}; x = " + word + far + ";", word + " = 1; x = {" + word + far + "};",
           "For i In {1:2}\n" + list + far + " = i;\nEndFor",
           "For " + word + " In {1:2}\n" + word + far + " = 1;\nEndFor",
@@ -136,7 +138,9 @@ class RandomScripts {
 
  private:
   int below(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random_); }
-  const std::string& one_of(const std::vector<std::string>& all) { return all[below(static_cast<int>(all.size()))]; }
+  const std::string& one_of(const std::vector<std::string>& all) {
+    return all[below(static_cast<int>(all.size()))];
+  }
   std::string any_token() {
     const int kind = below(3);
     return one_of(kind == 0 ? dangerous_ : kind == 1 ? words_ : plain_);
@@ -147,40 +151,41 @@ class RandomScripts {
   }
 
   std::mt19937 random_;
-  const std::vector<std::string> statements_ = {"Point ( 1 ) = { 0 , 0 , 0 } ;",
-                                                "Point ( p ) = { a , b(1) , 0 , 0.1 } ;",
-                                                "Line ( 1 ) = { 1 , p } ;",
-                                                "Circle ( 3 ) = { 1 , 2 , p } ;",
-                                                "Curve Loop ( 1 ) = { 1 , 2 , 3 } ;",
-                                                "Plane Surface ( 1 ) = { 1 } ;",
-                                                "Loop ( ) = { 1 , 2 } ; Loop ( -100000000 ) = 1 ;",
-                                                "Boundary ( ) = { 1 } ; Boundary [ -100000000 ] = 1 ;",
-                                                "c ( ) = Boundary { Surface { 1 } ; } ;",
-                                                "b ( -100000000 ) = 1 ;",
-                                                "a = b [ -100000000 ] ++ ;",
-                                                "SetFactory ( \"OpenCASCADE\" ) ;",
-                                                "Rectangle ( 1 ) = { 0 , 0 , 0 , 1 , a } ;",
-                                                "Disk ( 2 ) = { 0 , 0 , 0 , 0.3 } ;",
-                                                "BooleanUnion { Surface { 1 } ; Delete ; } { Surface { 2 } ; }",
-                                                "c ( ) = Curve In BoundingBox { 0 , 0 , 0 , b() } ;",
-                                                "Translate { a , 0 , 0 } { Duplicata { Surface { 1 } ; } }",
-                                                "Delete { Curve { b() } ; }",
-                                                "Coherence ;",
-                                                "For i In { 1 : 3 }\nPoint ( i ) = { i , 0 , 0 } ;\nEndFor",
-                                                "b ( 2 ) = a ? Sqrt ( 2 ) : Fabs ( -3 ) ;",
-                                                "DefineConstant [ d = { 1 , Name \"marker\" } , e = 2 ] ;",
-                                                "Geometry . Tolerance = 1e-8 ;",
-                                                "Mesh . Algorithm = 6 ;",
-                                                "Physical Curve ( \"marker\" ) = { 1 } ;",
-                                                "Printf ( \"marker\" , a ) ;",
-                                                "Field [ 1 ] = MathEval ;",
-                                                "SystemCall \"touch marker\" ;",
-                                                "Printf ( \"a\" ) > \"marker\" ;",
-                                                "Save \"marker.msh\" ;",
-                                                "Merge \"marker\" ;",
-                                                "Macro M\nSystemCall \"touch marker\" ;\nReturn",
-                                                "If ( a )\nPrint \"marker.png\" ;\nEndIf",
-                                                "CreateDir \"marker\" ;"};
+  const std::vector<std::string> statements_ = {
+      "Point ( 1 ) = { 0 , 0 , 0 } ;",
+      "Point ( p ) = { a , b(1) , 0 , 0.1 } ;",
+      "Line ( 1 ) = { 1 , p } ;",
+      "Circle ( 3 ) = { 1 , 2 , p } ;",
+      "Curve Loop ( 1 ) = { 1 , 2 , 3 } ;",
+      "Plane Surface ( 1 ) = { 1 } ;",
+      "Loop ( ) = { 1 , 2 } ; Loop ( -100000000 ) = 1 ;",
+      "Boundary ( ) = { 1 } ; Boundary [ -100000000 ] = 1 ;",
+      "c ( ) = Boundary { Surface { 1 } ; } ;",
+      "b ( -100000000 ) = 1 ;",
+      "a = b [ -100000000 ] ++ ;",
+      "SetFactory ( \"OpenCASCADE\" ) ;",
+      "Rectangle ( 1 ) = { 0 , 0 , 0 , 1 , a } ;",
+      "Disk ( 2 ) = { 0 , 0 , 0 , 0.3 } ;",
+      "BooleanUnion { Surface { 1 } ; Delete ; } { Surface { 2 } ; }",
+      "c ( ) = Curve In BoundingBox { 0 , 0 , 0 , b() } ;",
+      "Translate { a , 0 , 0 } { Duplicata { Surface { 1 } ; } }",
+      "Delete { Curve { b() } ; }",
+      "Coherence ;",
+      "For i In { 1 : 3 }\nPoint ( i ) = { i , 0 , 0 } ;\nEndFor",
+      "b ( 2 ) = a ? Sqrt ( 2 ) : Fabs ( -3 ) ;",
+      "DefineConstant [ d = { 1 , Name \"marker\" } , e = 2 ] ;",
+      "Geometry . Tolerance = 1e-8 ;",
+      "Mesh . Algorithm = 6 ;",
+      "Physical Curve ( \"marker\" ) = { 1 } ;",
+      "Printf ( \"marker\" , a ) ;",
+      "Field [ 1 ] = MathEval ;",
+      "SystemCall \"touch marker\" ;",
+      "Printf ( \"a\" ) > \"marker\" ;",
+      "Save \"marker.msh\" ;",
+      "Merge \"marker\" ;",
+      "Macro M\nSystemCall \"touch marker\" ;\nReturn",
+      "If ( a )\nPrint \"marker.png\" ;\nEndIf",
+      "CreateDir \"marker\" ;"};
   const std::vector<std::string> dangerous_ = {"SystemCall",
                                                "\"touch marker\"",
                                                "System",
@@ -215,10 +220,10 @@ class RandomScripts {
                                                "'",
                                                "EndFor",
                                                "For"};
-  const std::vector<std::string> plain_ = {"1",  "2",  "0.5", "1e3", "a",  "b",  "Merge", "SystemCall", ",",
-                                           ";",  ":",  "=",   "+=",  "-=", "*=", "/=",    "++",         "--",
-                                           "+",  "-",  "*",   "/",   "^",  "?",  "!",     "<",          ">",
-                                           "<=", ">=", "==",  "!=",  "&&", "||", "~",     "#",          "..."};
+  const std::vector<std::string> plain_ = {
+      "1",  "2",  "0.5", "1e3", "a",  "b",  "Merge", "SystemCall", ",",  ";", ":", "=",
+      "+=", "-=", "*=",  "/=",  "++", "--", "+",     "-",          "*",  "/", "^", "?",
+      "!",  "<",  ">",   "<=",  ">=", "==", "!=",    "&&",         "||", "~", "#", "..."};
   const std::vector<std::string> words_ = {"Point",
                                            "Line",
                                            "Curve",
@@ -309,7 +314,8 @@ TEST(GeometryScript, OfRandomTokensLeavesNoFileAndStartsNoProcess) {
     const Traces traces = traces_of([&] { std::for_each(scripts.begin(), scripts.end(), draw); });
     crashes += traces.crashed ? 1 : 0;
     if (traces.files == 0 && !traces.started) continue;
-    for (const std::string& original : originals) ADD_FAILURE() << "one of these left a trace:\n" << original;
+    for (const std::string& original : originals)
+      ADD_FAILURE() << "one of these left a trace:\n" << original;
   }
   EXPECT_EQ(accepted, batches * in_a_batch);
   EXPECT_LT(crashes, batches / 4) << "too few scripts were read to their end";

@@ -86,7 +86,8 @@ TEST(MshFile, BothVersionsOfGmshsOwnFilesGiveTheDomainOfFigure2) {
   for (const char* file : {"/two_squares_22.msh", "/two_squares_41.msh"}) {
     const TriangleMesh mesh = read_msh(data + file);
     EXPECT_EQ(mesh.vertex_count(), 21) << file;
-    EXPECT_NEAR(test::area(mesh, Region::body), 1, 1e-12);  // the sum of about 14 triangles of a unit square
+    EXPECT_NEAR(test::area(mesh, Region::body), 1,
+                1e-12);  // the sum of about 14 triangles of a unit square
     EXPECT_NEAR(test::area(mesh, Region::layer), 1, 1e-12);
     EXPECT_EQ(count(mesh, EdgeTag::sigma), 2);  // h = 1/2: two edges a side
     EXPECT_EQ(count(mesh, EdgeTag::contact), 2);
@@ -118,7 +119,8 @@ TEST(MshFile, SparseNodeTagsAndAnyOrderOfSectionsAreTaken) {
 }
 
 TEST(MshFile, CommentsBlankLinesAndWindowsLineEndsAreTaken) {
-  std::string text = with(square_22, "$Nodes\n", "$Comments\nanything $at all\n$EndComments\n\n$Nodes\n\n");
+  std::string text =
+      with(square_22, "$Nodes\n", "$Comments\nanything $at all\n$EndComments\n\n$Nodes\n\n");
   std::string windows;
   for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
   EXPECT_EQ(read(windows).triangles, read(square_22).triangles);
@@ -126,7 +128,8 @@ TEST(MshFile, CommentsBlankLinesAndWindowsLineEndsAreTaken) {
 
 TEST(MshFile, SigmaMayBeLeftOutSinceItIsWhereBodyMeetsLayer) {
   const TriangleMesh whole = read_msh(data + "/two_squares_22.msh");
-  std::string text = with(test::contents(data + "/two_squares_22.msh"), "5\n1 3 \"sigma\"\n", "4\n");
+  std::string text =
+      with(test::contents(data + "/two_squares_22.msh"), "5\n1 3 \"sigma\"\n", "4\n");
   const std::size_t elements = text.find("$Elements\n") + 10;
   std::istringstream records(text.substr(elements));
   std::string kept, line;
@@ -157,10 +160,13 @@ std::vector<Broken> broken_files() {
       {"version 4.0", with(b, "4.1 0 8", "4 0 8"), "4.1"},
       {"binary", with(a, "2.2 0 8", "2.2 1 8"), "binary"},
       {"format line cut", with(a, "2.2 0 8", "2.2"), "line 2"},
-      {"no names", with(a, a.substr(a.find("$Phys"), a.find("$Nodes") - a.find("$Phys")), ""), "$PhysicalNames"},
-      {"no nodes", with(a, a.substr(a.find("$Nodes"), a.find("$Elem") - a.find("$Nodes")), ""), "$Nodes"},
+      {"no names", with(a, a.substr(a.find("$Phys"), a.find("$Nodes") - a.find("$Phys")), ""),
+       "$PhysicalNames"},
+      {"no nodes", with(a, a.substr(a.find("$Nodes"), a.find("$Elem") - a.find("$Nodes")), ""),
+       "$Nodes"},
       {"no elements", a.substr(0, a.find("$Elements")), "$Elements"},
-      {"no entities", with(b, b.substr(b.find("$Ent"), b.find("$Nodes") - b.find("$Ent")), ""), "$Entities"},
+      {"no entities", with(b, b.substr(b.find("$Ent"), b.find("$Nodes") - b.find("$Ent")), ""),
+       "$Entities"},
       {"nodes twice", a + a.substr(a.find("$Nodes"), a.find("$Elem") - a.find("$Nodes")), "second"},
       {"text between sections", with(a, "$Nodes", "stray\n$Nodes"), "outside"},
       {"section not closed", with(a, "$Nodes", "$Periodic\n0\n$Nodes"), "truncated"},
@@ -170,7 +176,8 @@ std::vector<Broken> broken_files() {
       {"fewer nodes than declared", with(a, "$Nodes\n4", "$Nodes\n5"), "further"},
       {"more nodes than declared", with(a, "$Nodes\n4", "$Nodes\n3"), "are over"},
       {"a huge number of nodes", with(a, "$Nodes\n4", "$Nodes\n9000000000000000000"), "further"},
-      {"a number beyond 64 bits", with(a, "$Nodes\n4", "$Nodes\n99999999999999999999"), "no integer"},
+      {"a number beyond 64 bits", with(a, "$Nodes\n4", "$Nodes\n99999999999999999999"),
+       "no integer"},
       {"a negative count", with(a, "$Nodes\n4", "$Nodes\n-4"), "no count"},
       {"a count with a fraction", with(a, "$Nodes\n4", "$Nodes\n4.0"), "no integer"},
       {"fewer elements than declared", with(a, "$Elements\n6", "$Elements\n7"), "further"},
@@ -198,24 +205,31 @@ std::vector<Broken> broken_files() {
       {"a group without a name", with(a, "6 2 2 1 1", "6 2 2 8 1"), "group 8"},
       {"a curve's group on a triangle", with(a, "6 2 2 1 1", "6 2 2 4 1"), "group 4"},
       {"an unknown name", with(a, "\"body\"", "\"Body\""), "Body"},
-      {"a name in the wrong dimension", with(a, "2 1 \"body\"", "1 1 \"body\""), "unknown curve group"},
+      {"a name in the wrong dimension", with(a, "2 1 \"body\"", "1 1 \"body\""),
+       "unknown curve group"},
       {"a name twice", with(a, "\"contact\"", "\"clamped\""), "twice"},
       {"a number with two names", with(a, "1 5 \"contact\"", "1 4 \"contact\""), "two names"},
       {"a name without quotes", with(a, "\"contact\"", "contact"), "must read"},
       {"a name cut off", with(a, "\"contact\"", "\"contact"), "must read"},
-      {"a group that lost its name", with(with(a, "3\n1 4", "2\n1 4"), "1 5 \"contact\"\n", ""), "group 5"},
-      {"an empty group", with(with(a, "3\n1 4", "4\n1 4"), "2 1", "2 2 \"layer\"\n2 1"), "is empty"},
+      {"a group that lost its name", with(with(a, "3\n1 4", "2\n1 4"), "1 5 \"contact\"\n", ""),
+       "group 5"},
+      {"an empty group", with(with(a, "3\n1 4", "4\n1 4"), "2 1", "2 2 \"layer\"\n2 1"),
+       "is empty"},
       {"nothing in contact", with(a, "1 1 2 5 5", "1 1 2 4 4"), "\"contact\""},
-      {"nothing clamped", with(with(with(a, "2 1 2 4", "2 1 2 5"), "3 1 2 4", "3 1 2 5"), "4 1 2 4", "4 1 2 5"),
+      {"nothing clamped",
+       with(with(with(a, "2 1 2 4", "2 1 2 5"), "3 1 2 4", "3 1 2 5"), "4 1 2 4", "4 1 2 5"),
        "\"clamped\""},
       {"a dimension of 4", with(a, "2 1 \"body\"", "4 1 \"body\""), "dimension 4"},
       {"an unknown entity", with(b, "2 1 2 2\n", "2 5 2 2\n"), "surface 5"},
-      {"an entity without group", with(b, "1 0 0 0 1 1 0 1 1 2 8 9", "1 0 0 0 1 1 0 0 2 8 9"), "no physical group"},
-      {"an entity in two groups", with(b, "8 0 0 0 1 0 0 1 5 0", "8 0 0 0 1 0 0 2 5 4 0"), "2 physical groups"},
+      {"an entity without group", with(b, "1 0 0 0 1 1 0 1 1 2 8 9", "1 0 0 0 1 1 0 0 2 8 9"),
+       "no physical group"},
+      {"an entity in two groups", with(b, "8 0 0 0 1 0 0 1 5 0", "8 0 0 0 1 0 0 2 5 4 0"),
+       "2 physical groups"},
       {"an entity twice", with(b, "9 0 0 0 1 1 0 1 4 0", "8 0 0 0 1 1 0 1 4 0"), "twice"},
       {"an entity cut off", with(b, "9 0 0 0 1 1 0 1 4 0", "9 0 0 0 1 1 0 1"), "line ends"},
       {"a huge count of entities", with(b, "1 2 1 0\n", "1 2 1 9000000000000000000\n"), "further"},
-      {"a group out of range", with(b, "1 0 0 1 5 0", "1 0 0 1 -9223372036854775808 0"), "out of range"},
+      {"a group out of range", with(b, "1 0 0 1 5 0", "1 0 0 1 -9223372036854775808 0"),
+       "out of range"},
       {"a total that lies (nodes)", with(b, "2 4 1 4", "2 5 1 4"), "declares 5"},
       {"a total that lies (elements)", with(b, "4 7 1 7", "4 6 1 7"), "declares 6"},
       {"a block that lies", with(b, "2 1 2 2\n", "2 1 2 3\n"), "further"},
@@ -247,7 +261,8 @@ TEST(MshFile, AFileCutAnywhereIsRefused) {
 
 TEST(MshFile, HostileTextStaysOneShortPrintableLine) {
   const std::string long_word(100000, 'x');
-  for (const std::string& word : {long_word, std::string("\x1b[2J\x07\x01\xff"), std::string(1, '\0')}) {
+  for (const std::string& word :
+       {long_word, std::string("\x1b[2J\x07\x01\xff"), std::string(1, '\0')}) {
     const std::string message = refused(with(square_22, "3 1 1 0", "3 1 " + word + " 0"));
     EXPECT_LT(message.size(), 250U);
     EXPECT_GT(message.size(), 10U);

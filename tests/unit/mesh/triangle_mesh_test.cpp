@@ -8,15 +8,20 @@
 
 namespace antilock::test::mesh_test::triangle_mesh_test {
 
-/// What make_triangle_mesh is given; the default is two triangles on the unit square, contact below.
+/// What make_triangle_mesh is given; the default is two triangles on the unit square, contact
+/// below.
 struct Input {
   Points vertices{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   Triples triangles{{0, 1, 2}, {0, 2, 3}};
   std::vector<Region> region{Region::body, Region::body};
-  std::vector<TaggedEdge> tagged{
-      {0, 1, EdgeTag::contact}, {1, 2, EdgeTag::clamped}, {2, 3, EdgeTag::clamped}, {3, 0, EdgeTag::clamped}};
+  std::vector<TaggedEdge> tagged{{0, 1, EdgeTag::contact},
+                                 {1, 2, EdgeTag::clamped},
+                                 {2, 3, EdgeTag::clamped},
+                                 {3, 0, EdgeTag::clamped}};
 
-  TriangleMesh make() const { return make_triangle_mesh(vertices, triangles, region, tagged, "input"); }
+  TriangleMesh make() const {
+    return make_triangle_mesh(vertices, triangles, region, tagged, "input");
+  }
   void refused(const std::string& words) const {
     expect_refused([&] { make(); }, words);
     expect_refused([&] { make(); }, "input: ");  // every message says where
@@ -75,15 +80,17 @@ TEST(TriangleMesh, RefusesWhatIsNoMesh) {
     i.tagged[2] = {4, 3, EdgeTag::clamped}, i.tagged[3] = {3, 5, EdgeTag::clamped};
   });
   refused("belongs to no triangle", [](I& i) { i.add_vertex(0.3, 0.4); });
-  refused("hangs on the edge", [](I& i) {  // the lower triangle split at the middle of the diagonal, the upper one not
-    i.add_vertex(0.5, 0.5), i.add_triangle(1, 2, 4);
-    i.triangles.row(0) << 0, 1, 4;
-  });
+  refused("hangs on the edge",
+          [](I& i) {  // the lower triangle split at the middle of the diagonal, the upper one not
+            i.add_vertex(0.5, 0.5), i.add_triangle(1, 2, 4);
+            i.triangles.row(0) << 0, 1, 4;
+          });
   refused("overlapping", [](I& i) {  // both on the right of the diagonal 0-2, each counterclockwise
     i.vertices.row(3) << 0.9, 0.5;
     i.triangles.row(1) << 0, 3, 2;
   });
-  refused("three triangles share the edge", [](I& i) { i.add_vertex(0.9, 0.2), i.add_triangle(0, 4, 2); });
+  refused("three triangles share the edge",
+          [](I& i) { i.add_vertex(0.9, 0.2), i.add_triangle(0, 4, 2); });
   refused("in no group", [](I& i) { i.tagged.erase(i.tagged.begin() + 2); });
   refused("no triangle is in the group body", [](I& i) { i.region.assign(2, Region::layer); });
 }
@@ -102,7 +109,8 @@ TEST(TriangleMesh, RefusesATaggedEdgeThatIsNoEdgeOrInTheWrongPlace) {
 
 TEST(TriangleMesh, RefusesAnEdgeInTwoGroups) {
   Input input;
-  input.tagged.push_back({1, 0, EdgeTag::clamped});  // contact already; the direction does not matter
+  input.tagged.push_back(
+      {1, 0, EdgeTag::clamped});  // contact already; the direction does not matter
   input.refused("two groups");
   input.tagged.back() = {1, 0, EdgeTag::contact};  // the same again is no contradiction
   EXPECT_NO_THROW(input.make());

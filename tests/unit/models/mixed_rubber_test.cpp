@@ -25,23 +25,26 @@ TEST(Mixed, StrainsAndDivergencesAreExact) {
     const SparseMatrix strains = strain_form(both);
     const FactoredForm div = divergence(both);
     // a turn costs nothing; (2 x, 3 y) has 2 eps:eps = 26 and div = 5
-    const Eigen::VectorXd turn = field([](double, double y) { return 1 - y; }, [](double x, double) { return x; }),
-                          linear =
-                              field([](double x, double) { return 2 * x; }, [](double, double y) { return 3 * y; }),
-                          square =
-                              field([](double x, double) { return x * x; }, [](double, double y) { return y * y; });
+    const Eigen::VectorXd turn = field([](double, double y) { return 1 - y; },
+                                       [](double x, double) { return x; }),
+                          linear = field([](double x, double) { return 2 * x; },
+                                         [](double, double y) { return 3 * y; }),
+                          square = field([](double x, double) { return x * x; },
+                                         [](double, double y) { return y * y; });
     EXPECT_LT((strains * turn).norm(), 1e-12) << element->name();
     EXPECT_LT(value(div, turn), 1e-20) << element->name();
     EXPECT_NEAR(linear.dot(strains * linear), 26, 1e-11) << element->name();
     EXPECT_NEAR(value(div, linear), 25, 1e-11) << element->name();
     if (element != &p2() && element != &p3()) continue;
-    EXPECT_NEAR(square.dot(strains * square), 16.0 / 3, 1e-11) << element->name();  // 2 int 4 x^2 + 4 y^2
-    EXPECT_NEAR(value(div, square), 14.0 / 3, 1e-11) << element->name();            // int 4 (x + y)^2
+    EXPECT_NEAR(square.dot(strains * square), 16.0 / 3, 1e-11)
+        << element->name();                                               // 2 int 4 x^2 + 4 y^2
+    EXPECT_NEAR(value(div, square), 14.0 / 3, 1e-11) << element->name();  // int 4 (x + y)^2
   }
 }
 
 TEST(Mixed, AtEpsilonZeroIsTheSaddlePoint) {
-  // MINI and Taylor-Hood as they are written down: A1 u + D' p = 0, D u = 0, D = int phi_i div, by a rule of degree 6
+  // MINI and Taylor-Hood as they are written down: A1 u + D' p = 0, D u = 0, D = int phi_i div, by
+  // a rule of degree 6
   const TriangleMesh mesh = block(3);
   for (const Element* element : {&p1_bubble(), &p2()}) {
     const Space space(mesh, *element);
@@ -51,7 +54,8 @@ TEST(Mixed, AtEpsilonZeroIsTheSaddlePoint) {
     const Quadrature& rule = triangle_rule(6);
     for (int t = 0; t < mesh.triangle_count(); ++t)
       for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-        const Eigen::MatrixXd gradient = element->derivative(rule.points.row(q)) * barycentric_gradients(mesh, t);
+        const Eigen::MatrixXd gradient =
+            element->derivative(rule.points.row(q)) * barycentric_gradients(mesh, t);
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < element->dofs(); ++j)
             for (const int k : {0, 1})

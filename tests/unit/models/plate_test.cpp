@@ -1,4 +1,5 @@
-// Reissner and Mindlin's plate over an obstacle: the class in two dimensions, bounds under all of it.
+// Reissner and Mindlin's plate over an obstacle: the class in two dimensions, bounds under all of
+// it.
 #include "antilock/models/plate.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/exact/exact_plate.hpp"
@@ -23,7 +24,9 @@ const PlateElement arnold_falk{"Arnold-Falk", crouzeix_raviart(), p1_bubble(), S
 
 struct On {
   On(const PlateElement& method, const TriangleMesh& mesh)
-      : w(mesh, method.deflection), theta(mesh, method.rotation), space{w, {theta, theta}, method.shear} {}
+      : w(mesh, method.deflection),
+        theta(mesh, method.rotation),
+        space{w, {theta, theta}, method.shear} {}
   Space w, theta;
   PlateSpace space;
 };
@@ -46,7 +49,8 @@ Plate bent(double thickness) {
 }
 
 TEST(Plate, BendsExactlyWithConstantCurvature) {
-  // grad w is affine: the rotations hold it, and the edge means of w make the shear 0. Whatever the mesh and t.
+  // grad w is affine: the rotations hold it, and the edge means of w make the shear 0. Whatever the
+  // mesh and t.
   for (const TriangleMesh& mesh : {disc_mesh(6), clamped(unstructured_mesh(6, Domain{0}))})
     for (const PlateElement& method : {duran_liberman, arnold_falk})
       for (const double t : {1.0, 1e-3, 1e-20, 0.0}) {
@@ -54,7 +58,8 @@ TEST(Plate, BendsExactlyWithConstantCurvature) {
         const On on(method, mesh);
         const VariationalInequality problem = assemble(bent(t), on.space);
         const Solution s = active_set(problem);
-        // to what is claimed: the rate is one of p in the Euclidean norm, the error one of u in the maximum norm
+        // to what is claimed: the rate is one of p in the Euclidean norm, the error one of u in the
+        // maximum norm
         EXPECT_LE(s.error, CorrectionOptions{}.tolerance);
         const double off = 10 * s.error * s.u.lpNorm<Eigen::Infinity>();
         for (int i = 0; i < mesh.vertex_count(); ++i) {
@@ -65,14 +70,17 @@ TEST(Plate, BendsExactlyWithConstantCurvature) {
             ASSERT_NEAR(s.u(i), x * x + x * y - y * y / 2, off);
           }
         }
-        EXPECT_LE(s.counters.corrections, 3) << "what the dependent rows of the edges leave of p is round-off";
-        // bending energy of the curvatures 2, -1 and twist 1: (1 - nu)(4 + 1 + 2) + nu (2 - 1)^2 per area
+        EXPECT_LE(s.counters.corrections, 3)
+            << "what the dependent rows of the edges leave of p is round-off";
+        // bending energy of the curvatures 2, -1 and twist 1: (1 - nu)(4 + 1 + 2) + nu (2 - 1)^2
+        // per area
         EXPECT_NEAR(s.u.dot(problem.a1 * s.u), (0.7 * 7 + 0.3) * area(mesh, Region::body), 1e-10);
       }
 }
 
 TEST(Plate, TheOtherRulesHaveTheShearThatTheySee) {
-  // any w and theta: the square of the strain, or of its mean over each triangle, by a rule of degree 5
+  // any w and theta: the square of the strain, or of its mean over each triangle, by a rule of
+  // degree 5
   const TriangleMesh mesh = disc_mesh(3);
   const Quadrature& rule = radon_rule();
   for (const PlateElement& method : {exact_shear, one_point, arnold_falk}) {
@@ -81,8 +89,10 @@ TEST(Plate, TheOtherRulesHaveTheShearThatTheySee) {
     double exact = 0;
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       const Eigen::VectorXd w = u(on.w.cell_dofs().row(t)),
-                            x = u.segment(on.space.theta_x(), on.theta.size())(on.theta.cell_dofs().row(t)),
-                            y = u.segment(on.space.theta_y(), on.theta.size())(on.theta.cell_dofs().row(t));
+                            x = u.segment(on.space.theta_x(),
+                                          on.theta.size())(on.theta.cell_dofs().row(t)),
+                            y = u.segment(on.space.theta_y(),
+                                          on.theta.size())(on.theta.cell_dofs().row(t));
       Eigen::Vector2d mean = Eigen::Vector2d::Zero();
       double square = 0;
       for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
@@ -100,8 +110,9 @@ TEST(Plate, TheOtherRulesHaveTheShearThatTheySee) {
   }
 }
 
-// theta = 6 lambda_j lambda_k tau, g = grad 6 lambda_j lambda_k: (1 - nu) |eps|^2 + nu (tr eps)^2 is ((1 - nu) |g|^2 +
-// (1 + nu) (g.tau)^2) / 2, and int g g' = 3 area (2 jj' + 2 kk' + jk' + kj'), j and k the gradients of the coordinates.
+// theta = 6 lambda_j lambda_k tau, g = grad 6 lambda_j lambda_k: (1 - nu) |eps|^2 + nu (tr eps)^2
+// is ((1 - nu) |g|^2 + (1 + nu) (g.tau)^2) / 2, and int g g' = 3 area (2 jj' + 2 kk' + jk' + kj'),
+// j and k the gradients of the coordinates.
 TEST(Plate, TheBubblesOfTheEdgesHaveTheirExactBendingEnergy) {
   const TriangleMesh mesh = disc_mesh(3);
   const On on(duran_liberman, mesh);
@@ -112,18 +123,22 @@ TEST(Plate, TheBubblesOfTheEdgesHaveTheirExactBendingEnergy) {
       const int e = mesh.triangle_edges(t, i);
       const Eigen::Matrix<double, 3, 2> d = barycentric_gradients(mesh, t);
       const Eigen::RowVector2d j = d.row((i + 1) % 3), k = d.row((i + 2) % 3),
-                               tau = (mesh.vertices.row(mesh.edges(e, 1)) - mesh.vertices.row(mesh.edges(e, 0)))
+                               tau = (mesh.vertices.row(mesh.edges(e, 1)) -
+                                      mesh.vertices.row(mesh.edges(e, 0)))
                                          .normalized();
       const Eigen::Matrix2d g =
-          3 * mesh.area(t) * (2 * (j.transpose() * j + k.transpose() * k) + j.transpose() * k + k.transpose() * j);
+          3 * mesh.area(t) *
+          (2 * (j.transpose() * j + k.transpose() * k) + j.transpose() * k + k.transpose() * j);
       exact(e) += (0.7 * g.trace() + 1.3 * tau.dot(tau * g)) / 2;
     }
   for (int e = 0; e < mesh.edge_count(); ++e)
-    EXPECT_NEAR(a.coeff(on.space.on_edges() + e, on.space.on_edges() + e), exact(e), 1e-12 * exact(e));
+    EXPECT_NEAR(a.coeff(on.space.on_edges() + e, on.space.on_edges() + e), exact(e),
+                1e-12 * exact(e));
 }
 
-// What is prescribed on the rim has its own means there: of w, and of theta along the edge, whose unknown of the edge rule
-// multiplies a bubble of mean 1. Simpson's rule is exact for cubic w and quadratic theta.
+// What is prescribed on the rim has its own means there: of w, and of theta along the edge, whose
+// unknown of the edge rule multiplies a bubble of mean 1. Simpson's rule is exact for cubic w and
+// quadratic theta.
 TEST(Plate, TheRimHasTheMeansOfWhatIsPrescribed) {
   const TriangleMesh mesh = disc_mesh(3);
   Plate plate = bent(1);
@@ -139,19 +154,22 @@ TEST(Plate, TheRimHasTheMeansOfWhatIsPrescribed) {
       fixed[problem.dirichlet_dofs[k]] = problem.dirichlet_values(static_cast<Eigen::Index>(k));
     for (int e = 0; e < mesh.edge_count(); ++e) {
       if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
-      const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
+      const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)),
+                               b = mesh.vertices.row(mesh.edges(e, 1));
       const Eigen::RowVector2d along = (b - a).normalized();
       double w = 0, theta = 0;
       for (int q = 0; q < 2; ++q) {
         const Eigen::RowVector2d x = a + points(q) * (b - a);
         w += weights(q) * plate.boundary_deflection(x(0), x(1));
-        theta += weights(q) *
-                 (plate.boundary_rotation_x(x(0), x(1)) * along(0) + plate.boundary_rotation_y(x(0), x(1)) * along(1));
+        theta += weights(q) * (plate.boundary_rotation_x(x(0), x(1)) * along(0) +
+                               plate.boundary_rotation_y(x(0), x(1)) * along(1));
       }
       if (method.shear == ShearRule::edges) {
         double ends = 0;
         for (const int v : {mesh.edges(e, 0), mesh.edges(e, 1)})
-          ends += (fixed.at(on.space.theta_x() + v) * along(0) + fixed.at(on.space.theta_y() + v) * along(1)) / 2;
+          ends += (fixed.at(on.space.theta_x() + v) * along(0) +
+                   fixed.at(on.space.theta_y() + v) * along(1)) /
+                  2;
         EXPECT_NEAR(ends + fixed.at(on.space.on_edges() + e), theta, 1e-14);
       } else {
         EXPECT_NEAR(fixed.at(e), w, 1e-14);
@@ -161,8 +179,9 @@ TEST(Plate, TheRimHasTheMeansOfWhatIsPrescribed) {
 }
 
 TEST(Plate, TheEdgeRuleHasTheExactShearOfItsOwnFields) {
-  // w = 0, theta = -(a + b (-y, x)): the shear strain a + b (-y, x) is in every triangle's space of the edge rule, and
-  // the form is its exact integral, by a rule of degree 5. The polar moment of each triangle is in it, in b alone.
+  // w = 0, theta = -(a + b (-y, x)): the shear strain a + b (-y, x) is in every triangle's space of
+  // the edge rule, and the form is its exact integral, by a rule of degree 5. The polar moment of
+  // each triangle is in it, in b alone.
   for (const TriangleMesh& mesh : {disc_mesh(3), clamped(unstructured_mesh(6, Domain{0}))})
     for (const Eigen::Vector3d& field : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.3, -0.7, 2)}) {
       const On on(duran_liberman, mesh);
@@ -189,7 +208,8 @@ TEST(Plate, P1CannotBendAtAllInTheLimit) {
     const TriangleMesh mesh = disc_mesh(5);
     const On on(method, mesh);
     EXPECT_EQ(kernel_dimension(assemble(Plate{}, on.space)), 0);
-    EXPECT_THROW(active_set(assemble(bent(0), on.space)), NotConverged);  // B u = 0 has no solution with this rim
+    EXPECT_THROW(active_set(assemble(bent(0), on.space)),
+                 NotConverged);  // B u = 0 has no solution with this rim
   }
 }
 
@@ -204,8 +224,9 @@ TEST(Plate, TheCuresLeaveAsManyFunctionsAsCounted) {
   }
 }
 
-/// A clamped plate on the unit square without obstacle: w0 = 1e4 g(x) g(y), g = x^3 (x - 1)^3, theta = grad w0,
-/// w = w0 - t^2 Laplace w0, load = Laplace^2 w0 (a check by hand: the shear force is -grad Laplace w0).
+/// A clamped plate on the unit square without obstacle: w0 = 1e4 g(x) g(y), g = x^3 (x - 1)^3,
+/// theta = grad w0, w = w0 - t^2 Laplace w0, load = Laplace^2 w0 (a check by hand: the shear force
+/// is -grad Laplace w0).
 struct Square {
   double t;
   static double g(double x, int derivative) {
@@ -220,24 +241,30 @@ struct Square {
   }
   Plate plate() const {
     Plate p{.thickness = t};
-    p.load = [](double x, double y) { return 1e4 * (g(x, 4) * g(y, 0) + 2 * g(x, 2) * g(y, 2) + g(x, 0) * g(y, 4)); };
+    p.load = [](double x, double y) {
+      return 1e4 * (g(x, 4) * g(y, 0) + 2 * g(x, 2) * g(y, 2) + g(x, 0) * g(y, 4));
+    };
     p.gap = [](double, double) { return infinity; };
     return p;
   }
 };
 
-/// Root mean squares of the errors of w at its unknowns and of theta_x at the vertices, relative to those of w and theta.
-std::pair<double, double> errors(const PlateElement& method, const TriangleMesh& mesh, const Square& exact) {
+/// Root mean squares of the errors of w at its unknowns and of theta_x at the vertices, relative to
+/// those of w and theta.
+std::pair<double, double> errors(const PlateElement& method, const TriangleMesh& mesh,
+                                 const Square& exact) {
   const On on(method, mesh);
   const Solution s = active_set(assemble(exact.plate(), on.space));
   double w = 0, w2 = 0, theta = 0, theta2 = 0;
   for (int i = 0; i < on.w.size(); ++i) {
-    const double value = exact.deflection(on.w.dof_coordinates()(i, 0), on.w.dof_coordinates()(i, 1));
+    const double value =
+        exact.deflection(on.w.dof_coordinates()(i, 0), on.w.dof_coordinates()(i, 1));
     w += std::pow(s.u(i) - value, 2);
     w2 += value * value;
   }
   for (int i = 0; i < mesh.vertex_count(); ++i) {
-    const double value = 1e4 * Square::g(mesh.vertices(i, 0), 1) * Square::g(mesh.vertices(i, 1), 0);
+    const double value =
+        1e4 * Square::g(mesh.vertices(i, 0), 1) * Square::g(mesh.vertices(i, 1), 0);
     theta += std::pow(s.u(on.space.theta_x() + i) - value, 2);
     theta2 += value * value;
   }
@@ -249,7 +276,9 @@ TEST(Plate, ConvergesLikeHSquaredUniformlyInTheThickness) {
   const std::vector<TriangleMesh> meshes{clamped(unstructured_mesh(8, Domain{0})),
                                          clamped(unstructured_mesh(16, Domain{0})),
                                          clamped(unstructured_mesh(32, Domain{0}))};
-  const auto order = [](const std::vector<double>& error) { return std::log2(error.front() / error.back()) / 2; };
+  const auto order = [](const std::vector<double>& error) {
+    return std::log2(error.front() / error.back()) / 2;
+  };
   for (const PlateElement& method : {duran_liberman, arnold_falk})
     for (const double t : {1.0, 0.1, 1e-2, 1e-4, 0.0}) {
       SCOPED_TRACE(method.name + ", t = " + std::to_string(t));
@@ -264,7 +293,8 @@ TEST(Plate, ConvergesLikeHSquaredUniformlyInTheThickness) {
       EXPECT_LT(w.back(), 0.02);
       EXPECT_LT(theta.back(), 0.02);
     }
-  for (const PlateElement& method : {exact_shear, one_point}) EXPECT_GT(errors(method, meshes[1], {1e-4}).first, 0.99);
+  for (const PlateElement& method : {exact_shear, one_point})
+    EXPECT_GT(errors(method, meshes[1], {1e-4}).first, 0.99);
 }
 
 TEST(Plate, ThePressedPlateFulfilsTheConditionsOnBothRoads) {
@@ -292,8 +322,9 @@ TEST(Plate, TheContactForceTendsToTheExactOne) {
       for (const int n : {6, 12}) {
         const TriangleMesh mesh = disc_mesh(n);
         const On on(method, mesh);
-        off.push_back(std::abs(
-            active_set(assemble(Plate{.thickness = t}, on.space)).lambda.sum() / ExactPlate(t).contact_force() - 1));
+        off.push_back(std::abs(active_set(assemble(Plate{.thickness = t}, on.space)).lambda.sum() /
+                                   ExactPlate(t).contact_force() -
+                               1));
       }
       EXPECT_LT(off.back(), 0.01) << method.name << t;
       EXPECT_LT(off.back(), off.front()) << method.name << t;
@@ -307,7 +338,8 @@ TEST(Plate, AnObstacleThatP1CannotReachIsRefused) {
   for (const PlateElement& method : {exact_shear, one_point})
     EXPECT_THROW(active_set(assemble(lifted, On(method, mesh).space)), NotConverged) << method.name;
   for (const PlateElement& method : {duran_liberman, arnold_falk})
-    EXPECT_LT(worst_violation(active_set(assemble(lifted, On(method, mesh).space)).kkt), 1e-9) << method.name;
+    EXPECT_LT(worst_violation(active_set(assemble(lifted, On(method, mesh).space)).kkt), 1e-9)
+        << method.name;
 }
 
 TEST(Plate, ValuesOutOfRangeAreRefused) {
@@ -320,25 +352,33 @@ TEST(Plate, ValuesOutOfRangeAreRefused) {
   Plate below_obstacle;  // below the obstacle on a part of the rim
   const TriangleMesh group = retagged(mesh, [](double, double) { return dirichlet_group(0); });
   const On named(arnold_falk, group);
-  EXPECT_TRUE(assemble(below_obstacle, named.space).a1.isApprox(assemble(below_obstacle, on.space).a1))
+  EXPECT_TRUE(
+      assemble(below_obstacle, named.space).a1.isApprox(assemble(below_obstacle, on.space).a1))
       << "held under whatever name";
   below_obstacle.gap = [](double x, double) { return x > 0.9 ? -0.1 : 1.0; };
   for (const On* rim : {&on, &named})
-    test::expect_refused([&] { assemble(below_obstacle, rim->space); }, "below the obstacle at 0.1");
-  below_obstacle.gap = [](double x, double) { return x < 0 ? 0.1 : 1e13; };  // large elsewhere: hides nothing
+    test::expect_refused([&] { assemble(below_obstacle, rim->space); },
+                         "below the obstacle at 0.1");
+  below_obstacle.gap = [](double x, double) {
+    return x < 0 ? 0.1 : 1e13;
+  };  // large elsewhere: hides nothing
   below_obstacle.boundary_deflection = [](double, double) { return -1.0; };
   test::expect_refused([&] { assemble(below_obstacle, on.space); }, "below the obstacle at -0.1");
-  below_obstacle.boundary_deflection = [](double, double) { return 0.0; };  // a thousandth of the gap beside it below
+  below_obstacle.boundary_deflection = [](double, double) {
+    return 0.0;
+  };  // a thousandth of the gap beside it below
   below_obstacle.gap = [](double x, double y) { return x * x + y * y > 0.99 ? -1e-4 : 0.1; };
   test::expect_refused([&] { assemble(below_obstacle, on.space); }, "below the obstacle at 0.0001");
-  TriangleMesh rounded = mesh;  // an obstacle that meets the rim, whose corners are where they are to 1e-9
+  TriangleMesh rounded =
+      mesh;  // an obstacle that meets the rim, whose corners are where they are to 1e-9
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_tag[e] == EdgeTag::clamped)
       rounded.vertices.row(mesh.edges(e, 0)) = (1 - 1e-9) * mesh.vertices.row(mesh.edges(e, 0));
   Plate touching;
   touching.gap = [](double x, double y) { return -0.1 * (1 - x * x - y * y); };
   EXPECT_NO_THROW(assemble(touching, On(arnold_falk, rounded).space));
-  const On wrong({"", p2(), p2(), ShearRule::mean}, mesh), edges({"", p1(), p1_bubble(), ShearRule::edges}, mesh);
+  const On wrong({"", p2(), p2(), ShearRule::mean}, mesh),
+      edges({"", p1(), p1_bubble(), ShearRule::edges}, mesh);
   test::expect_refused([&] { assemble(Plate{}, wrong.space); }, "accepted P1 and P1");
   test::expect_refused([&] { assemble(Plate{}, edges.space); }, "accepted P1 and P1");
 }

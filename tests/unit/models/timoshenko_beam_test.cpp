@@ -1,4 +1,5 @@
-// The Timoshenko beam over an obstacle: another member of the class, the same solver; full integration locks.
+// The Timoshenko beam over an obstacle: another member of the class, the same solver; full
+// integration locks.
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/exact/exact_beam.hpp"
 #include "antilock/models/coating.hpp"
@@ -17,12 +18,15 @@ double nodal_error(const Beam& b) {
   const Solution solution = active_set(assemble(b));
   double largest = 0;
   for (int i = 0; i <= b.cells; ++i)
-    largest = std::max(largest, std::abs(solution.u(2 * i) - exact.deflection(static_cast<double>(i) / b.cells)));
+    largest = std::max(
+        largest, std::abs(solution.u(2 * i) - exact.deflection(static_cast<double>(i) / b.cells)));
   return largest;
 }
 
 TEST(Beam, TheTruthHasItsKnownDigits) {
-  const auto start = [](double epsilon) { return ExactBeam(beam(2, epsilon, ShearIntegration::reduced)); };
+  const auto start = [](double epsilon) {
+    return ExactBeam(beam(2, epsilon, ShearIntegration::reduced));
+  };
   EXPECT_NEAR(start(1).contact_start(), 0.01852, 5e-6);
   EXPECT_NEAR(start(1e-2).contact_start(), 0.17822, 5e-6);
   EXPECT_NEAR(start(1e-4).contact_start(), 0.32230, 1e-5);
@@ -37,21 +41,27 @@ TEST(Beam, TheTruthSolvesItsEquations) {
   const double epsilon = 1e-2, q = Beam{}.load, d = 1e-4;
   const ExactBeam exact(beam(2, epsilon, ShearIntegration::reduced));
   const auto shear = [&](double x) {
-    return ((exact.deflection(x + d) - exact.deflection(x - d)) / (2 * d) - exact.rotation(x)) / epsilon;
+    return ((exact.deflection(x + d) - exact.deflection(x - d)) / (2 * d) - exact.rotation(x)) /
+           epsilon;
   };
   for (const double x : {0.03, 0.1, 0.15}) {
     EXPECT_NEAR((shear(x + d) - shear(x - d)) / (2 * d) / q, 1, 1e-4) << x;
-    const double bending = (exact.rotation(x + d) - 2 * exact.rotation(x) + exact.rotation(x - d)) / (d * d);
+    const double bending =
+        (exact.rotation(x + d) - 2 * exact.rotation(x) + exact.rotation(x - d)) / (d * d);
     EXPECT_NEAR(bending / shear(x), -1, 1e-4) << x;
   }
-  // on it w' = 0: epsilon theta'' = theta; odd about the middle, and continuous where contact begins
+  // on it w' = 0: epsilon theta'' = theta; odd about the middle, and continuous where contact
+  // begins
   for (const double x : {0.2, 0.3, 0.4}) {
-    const double bending = (exact.rotation(x + d) - 2 * exact.rotation(x) + exact.rotation(x - d)) / (d * d);
+    const double bending =
+        (exact.rotation(x + d) - 2 * exact.rotation(x) + exact.rotation(x - d)) / (d * d);
     EXPECT_NEAR(epsilon * bending / exact.rotation(x), 1, 1e-4) << x;
     EXPECT_NEAR(exact.rotation(1 - x) / -exact.rotation(x), 1, 1e-13) << x;
   }
-  EXPECT_NEAR(exact.rotation(exact.contact_start() + 1e-9) / exact.rotation(exact.contact_start()), 1, 1e-6);
-  EXPECT_EQ(ExactBeam(beam(2, 0, ShearIntegration::reduced)).rotation(0.4), 0) << "Bernoulli's beam lies flat";
+  EXPECT_NEAR(exact.rotation(exact.contact_start() + 1e-9) / exact.rotation(exact.contact_start()),
+              1, 1e-6);
+  EXPECT_EQ(ExactBeam(beam(2, 0, ShearIntegration::reduced)).rotation(0.4), 0)
+      << "Bernoulli's beam lies flat";
 }
 
 TEST(Beam, FullIntegrationLocksAndReducedDoesNot) {
@@ -60,24 +70,26 @@ TEST(Beam, FullIntegrationLocksAndReducedDoesNot) {
     double full[3], reduced[3];
   };
   // two digits each, measured by a first program that shares no line with this library
-  for (const Row& row :
-       {Row{1e-2, {9.1e-3, 1.4e-3, 7e-5}, {9.5e-3, 1.4e-3, 7e-5}},
-        Row{1e-4, {0.27, 3.5e-2, 2.4e-3}, {2.4e-2, 1.4e-3, 7e-5}},
-        Row{1e-8, {1.0, 0.99, 0.91}, {2.3e-2, 1.6e-3, 1.1e-4}}, Row{0, {1.0, 1.0, 1.0}, {2.3e-2, 1.6e-3, 1.1e-4}}}) {
+  for (const Row& row : {Row{1e-2, {9.1e-3, 1.4e-3, 7e-5}, {9.5e-3, 1.4e-3, 7e-5}},
+                         Row{1e-4, {0.27, 3.5e-2, 2.4e-3}, {2.4e-2, 1.4e-3, 7e-5}},
+                         Row{1e-8, {1.0, 0.99, 0.91}, {2.3e-2, 1.6e-3, 1.1e-4}},
+                         Row{0, {1.0, 1.0, 1.0}, {2.3e-2, 1.6e-3, 1.1e-4}}}) {
     int k = 0;
     for (const int cells : {16, 64, 256}) {
       SCOPED_TRACE("epsilon " + std::to_string(row.epsilon) + ", cells " + std::to_string(cells));
-      EXPECT_NEAR(nodal_error(beam(cells, row.epsilon, ShearIntegration::full)) / row.full[k], 1, 0.05);
-      EXPECT_NEAR(nodal_error(beam(cells, row.epsilon, ShearIntegration::reduced)) / row.reduced[k], 1, 0.05);
+      EXPECT_NEAR(nodal_error(beam(cells, row.epsilon, ShearIntegration::full)) / row.full[k], 1,
+                  0.05);
+      EXPECT_NEAR(nodal_error(beam(cells, row.epsilon, ShearIntegration::reduced)) / row.reduced[k],
+                  1, 0.05);
       ++k;
     }
   }
 }
 
 TEST(Beam, IsSolvedInAFewStepsAndCorrectionsHoweverFine) {
-  // In contact the condition number grows like h^-4 (7e10 on 512 cells). Every digit of the default tolerance is
-  // reached nevertheless: residuals are exact. From the nested start the contact steps do not grow with n (cold: 306 on
-  // 512 cells).
+  // In contact the condition number grows like h^-4 (7e10 on 512 cells). Every digit of the default
+  // tolerance is reached nevertheless: residuals are exact. From the nested start the contact steps
+  // do not grow with n (cold: 306 on 512 cells).
   for (const double epsilon : {1e-4, 1e-8, 0.0})
     for (const int cells : {64, 256, 512}) {
       SCOPED_TRACE("epsilon " + std::to_string(epsilon) + ", cells " + std::to_string(cells));
@@ -123,8 +135,10 @@ TEST(Beam, LockingIsTheKernelOfB) {
     EXPECT_EQ(kernel_basis(full).cols(), 0);
     // rows of B are of size 1/h = cells
     EXPECT_LT((reduced.b * basis).cwiseAbs().maxCoeff(), 1e-13 * cells);
-    EXPECT_LT((test::product(basis.transpose(), basis) - Eigen::MatrixXd::Identity(cells - 2, cells - 2)).norm(),
-              1e-12);
+    EXPECT_LT(
+        (test::product(basis.transpose(), basis) - Eigen::MatrixXd::Identity(cells - 2, cells - 2))
+            .norm(),
+        1e-12);
   }
 }
 
@@ -139,13 +153,15 @@ TEST(Beam, ForcesConcentrateAtTheEndsOfContact) {
 }
 
 TEST(Beam, OneFormAloneIsSingularAndTheirSumIsNot) {
-  // a1 knows nothing of the deflection; a1 + a0 is coercive in the H1 norm of (w, theta), uniformly in h
+  // a1 knows nothing of the deflection; a1 + a0 is coercive in the H1 norm of (w, theta), uniformly
+  // in h
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   for (const int cells : {8, 16, 32, 64}) {
     const VariationalInequality problem = assemble(beam(cells, 0, ShearIntegration::reduced));
     std::vector<Eigen::Triplet<double>> entries;
     for (int i = 0; i <= cells; ++i) {
-      for (const int k : {0, 1}) entries.emplace_back(2 * i + k, 2 * i + k, 2.0 * cells + 1.0 / cells);
+      for (const int k : {0, 1})
+        entries.emplace_back(2 * i + k, 2 * i + k, 2.0 * cells + 1.0 / cells);
       if (i < cells)
         for (const int k : {0, 1}) {
           entries.emplace_back(2 * i + k, 2 * i + 2 + k, -cells);
@@ -163,8 +179,8 @@ TEST(Beam, OneFormAloneIsSingularAndTheirSumIsNot) {
 }
 
 TEST(Beam, RefusesValuesOutOfRange) {
-  for (const Beam& bad : {Beam{.cells = 1}, Beam{.epsilon = -1e-9}, Beam{.epsilon = 1.1}, Beam{.epsilon = test::nan},
-                          Beam{.gap = 0}, Beam{.load = test::infinity}})
+  for (const Beam& bad : {Beam{.cells = 1}, Beam{.epsilon = -1e-9}, Beam{.epsilon = 1.1},
+                          Beam{.epsilon = test::nan}, Beam{.gap = 0}, Beam{.load = test::infinity}})
     EXPECT_THROW(assemble(bad), Error);
   EXPECT_THROW(ExactBeam{Beam{.load = 1}}, Error);  // does not reach the obstacle
 }

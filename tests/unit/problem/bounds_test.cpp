@@ -31,14 +31,17 @@ TEST(BoundLimits, ANumberThatIsNoneCountsAsALimit) {
 // u_2 >= -1, u_0 - u_1 <= 3 with a force of at most 5
 TEST(Bounds, ListUnknownsThenConstraints) {
   const RowMatrix row = Eigen::MatrixXd(Eigen::RowVector3d(1, -1, 0)).sparseView();
-  const Bounds bounds({2}, {Eigen::Vector2d(-1, -infinity), Eigen::Vector2d(infinity, 3), Eigen::Vector2d(infinity, 5)},
-                      row);
+  const Bounds bounds(
+      {2},
+      {Eigen::Vector2d(-1, -infinity), Eigen::Vector2d(infinity, 3), Eigen::Vector2d(infinity, 5)},
+      row);
   const Eigen::Vector3d u(6, 2, -0.5);
   EXPECT_EQ(bounded_values(bounds, u), Eigen::Vector2d(-0.5, 4));
   EXPECT_EQ(bound_forces(bounds, Eigen::Vector2d(7, -5), 3), Eigen::Vector3d(-5, 5, 7));
   EXPECT_EQ(distance_to_bound(bounds, u), Eigen::Vector2d(0.5, infinity));
   EXPECT_EQ(friction_energy(bounds, u), 5);  // u_0 - u_1 is beyond 3 by 1
-  expect_refused([&] { require_bounds_on_unknowns(bounds, "it"); }, "it: bounds on constraints are not known here");
+  expect_refused([&] { require_bounds_on_unknowns(bounds, "it"); },
+                 "it: bounds on constraints are not known here");
   expect_refused([&] { require_hard_bounds(bounds, "it"); }, "it: friction is not known here");
   const Bounds below = Bounds::lower_on({2}, Eigen::VectorXd{{-1}});
   EXPECT_EQ(distance_to_bound(below, u), Eigen::VectorXd{{0.5}});

@@ -16,7 +16,8 @@ TEST(ChoosePenalty, IsInTheUnitsOfCompliance) {
   for (const double s : {1e3, 1e6}) {
     VariationalInequality scaled = problem;
     scaled.b *= s;
-    EXPECT_NEAR(choose_penalty(scaled) / (delta * s * s), 1, 1e-13);  // round-off of two ratios and their roots
+    EXPECT_NEAR(choose_penalty(scaled) / (delta * s * s), 1,
+                1e-13);  // round-off of two ratios and their roots
     scaled = problem;
     scaled.a1 /= s;
     EXPECT_NEAR(choose_penalty(scaled) / (delta * s), 1, 1e-13);
@@ -46,7 +47,8 @@ TEST(Check, RefusesWhatIsNoProblem) {
   refused([](P& p) { p.dirichlet_dofs.pop_back(); }, "one value per fixed unknown");
   refused([](P& p) { p.bounds.unknowns.pop_back(); }, "one bound per contact unknown");
   refused([](P& p) { p.bounds.upper.resize(0); }, "upper has 0 entries; accepted 2, as in lower");
-  refused([](P& p) { p.bounds.force_limit.resize(0); }, "force_limit has 0 entries; accepted 2, as in lower");
+  refused([](P& p) { p.bounds.force_limit.resize(0); },
+          "force_limit has 0 entries; accepted 2, as in lower");
   refused([=](P& p) { p.a1.valuePtr()[0] = nan; }, "not finite");
   refused([=](P& p) { p.b.valuePtr()[3] = infinity; }, "not finite");
   refused([=](P& p) { p.load(1) = nan; }, "not finite");
@@ -60,7 +62,8 @@ TEST(Check, RefusesWhatIsNoProblem) {
     refused([=](P& p) { p.compliance = compliance; }, "accepted: a finite number, 0 or more");
   refused([](P& p) { p.a1.coeffRef(0, 1) *= 1 + 1e-9; }, "not symmetric");
   refused([](P& p) { p.a1.coeffRef(1, 0) = 0; }, "not symmetric");
-  // an entry whose partner is not stored, on either side of the diagonal, the stored ones before and after it
+  // an entry whose partner is not stored, on either side of the diagonal, the stored ones before
+  // and after it
   for (const auto& [i, j] : {std::pair{0, 15}, {15, 0}, {5, 3}, {3, 5}}) {
     SCOPED_TRACE(testing::Message() << i << ", " << j);
     refused(
@@ -93,13 +96,14 @@ TEST(EqualityConstrained, RefusesWhatDoesNotFit) {
   VariationalInequality problem = rubber(space, true);
   expect_refused([&] { equality_constrained(problem, {true}); }, "1 marks; accepted: 9");
   problem.bounds.upper = Eigen::VectorXd::Constant(problem.bounds.count(), 1);
-  expect_refused([&] { equality_constrained(problem, std::vector<bool>(9)); }, "equality_constrained: upper bounds");
+  expect_refused([&] { equality_constrained(problem, std::vector<bool>(9)); },
+                 "equality_constrained: upper bounds");
 }
 
 TEST(Check, TakesAnA1OfZerosWhereBHoldsEverything) {
   // A1 alone may be singular: here it is empty, and B' M B = I
-  EXPECT_NO_THROW(
-      check(small_problem(Eigen::Matrix2d::Zero(), Eigen::Vector2d::Ones(), {}, Eigen::Matrix2d::Identity())));
+  EXPECT_NO_THROW(check(small_problem(Eigen::Matrix2d::Zero(), Eigen::Vector2d::Ones(), {},
+                                      Eigen::Matrix2d::Identity())));
 }
 
 }  // namespace antilock::test::problem_test::variational_inequality_test

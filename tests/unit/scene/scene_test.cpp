@@ -9,7 +9,8 @@ TEST(Scene, NamesTheEffectsPresent) {
   EXPECT_EQ(Scene({paper_load}).effects(), Names{});
   EXPECT_EQ(Scene({paper_load}, StiffLayer{0.1}).effects(), Names{"layer"});
   EXPECT_EQ(Scene({paper_load}, NoLayer{}, UnilateralContact{}).effects(), Names{"contact"});
-  EXPECT_EQ(Scene({paper_load}, VentcelLayer{}, UnilateralContact{}).effects(), (Names{"layer", "contact"}));
+  EXPECT_EQ(Scene({paper_load}, VentcelLayer{}, UnilateralContact{}).effects(),
+            (Names{"layer", "contact"}));
 }
 
 TEST(Scene, KnowsTheDepthOfTheLayersMeshAndThePapersEpsilon) {
@@ -30,7 +31,8 @@ TEST(Scene, LoadOfTheFiguresPullsLeftAndPressesRight) {
 }
 
 TEST(Scene, AcceptsEpsilonFromOneDownToExactlyZero) {
-  for (const double epsilon : {1.0, 1e-6, 1e-300, 0.0}) EXPECT_NO_THROW(Scene({paper_load}, StiffLayer{epsilon}));
+  for (const double epsilon : {1.0, 1e-6, 1e-300, 0.0})
+    EXPECT_NO_THROW(Scene({paper_load}, StiffLayer{epsilon}));
   for (const double epsilon : {1.0, 1e-3}) EXPECT_NO_THROW(Scene({paper_load}, ThinLayer{epsilon}));
 }
 
@@ -50,16 +52,23 @@ TEST(Scene, RefusesABodyWithoutLoadAndContactWithoutGap) {
 }
 
 TEST(Scene, RefusesAnObstacleAboveAClampedEnd) {
-  expect_refused([] { Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) { return x - 1e-3; }}); },
-                 "gap(0)");
-  expect_refused([] { Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) { return 0.5 - x; }}); }, "gap(1)");
-  expect_refused([] { Scene({paper_load}, NoLayer{}, UnilateralContact{[](double) { return nan; }}); }, "gap(0)");
+  expect_refused(
+      [] { Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) { return x - 1e-3; }}); },
+      "gap(0)");
+  expect_refused(
+      [] { Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) { return 0.5 - x; }}); },
+      "gap(1)");
+  expect_refused(
+      [] { Scene({paper_load}, NoLayer{}, UnilateralContact{[](double) { return nan; }}); },
+      "gap(0)");
   const UnilateralContact low{[](double) { return 1; }, {0, 1}, [](double) { return -0.1; }};
   expect_refused([&] { Scene({paper_load}, NoLayer{}, low); }, "ceiling(0)");
   // between the ends the obstacle may press in, and round-off at the ends is no contradiction
-  EXPECT_NO_THROW(Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) { return x * (x - 1); }}));
   EXPECT_NO_THROW(
-      Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) { return -std::sin(std::numbers::pi * x); }}));
+      Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) { return x * (x - 1); }}));
+  EXPECT_NO_THROW(Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) {
+                          return -std::sin(std::numbers::pi * x);
+                        }}));
 }
 
 }  // namespace antilock::test::scene_test::scene_test

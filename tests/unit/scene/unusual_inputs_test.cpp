@@ -1,5 +1,6 @@
-// Inputs at the edge of what the library's functions take, each made here after a public report on another program, which
-// is named beside it (tests/README.md lists them). Those of scenes, matrices and command lines stand in tests/scenes.
+// Inputs at the edge of what the library's functions take, each made here after a public report on
+// another program, which is named beside it (tests/README.md lists them). Those of scenes, matrices
+// and command lines stand in tests/scenes.
 #include <filesystem>
 #include <limits>
 
@@ -38,11 +39,13 @@ TEST(Ceiling, EqualToTheObstacleIsAProblemWithASolution) {
   const auto same = [](double x) { return std::sin(std::numbers::pi * x) * (1.0 / 3); };
   for (const Element* element : {&p1(), &crouzeix_raviart()}) {
     const Space space(mesh, *element);
-    const VariationalInequality problem = assemble(Scene({paper_load}, NoLayer{}, between(hill, same)), space);
+    const VariationalInequality problem =
+        assemble(Scene({paper_load}, NoLayer{}, between(hill, same)), space);
     EXPECT_GE((problem.bounds.upper - problem.bounds.lower).minCoeff(), 0);
     const Solution solution = active_set(problem);
     // held on both sides: u is the obstacle to the last digit of either formula
-    for (const int i : problem.bounds.unknowns) EXPECT_NEAR(solution.u(i), hill(space.dof_coordinates()(i, 0)), 1e-15);
+    for (const int i : problem.bounds.unknowns)
+      EXPECT_NEAR(solution.u(i), hill(space.dof_coordinates()(i, 0)), 1e-15);
   }
 }
 

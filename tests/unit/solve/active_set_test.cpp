@@ -1,4 +1,5 @@
-// The active set with its iterated penalty: one answer, the right one, whatever the scale, the numbering and epsilon.
+// The active set with its iterated penalty: one answer, the right one, whatever the scale, the
+// numbering and epsilon.
 #include "antilock/core/dense.hpp"
 #include "antilock/solve/anderson.hpp"
 #include "antilock/solve/summed.hpp"
@@ -26,7 +27,8 @@ TEST(ActiveSet, IsTheBruteForceAnswer) {
       if (epsilon == 0 && &space.element() == &p1() && space.name.starts_with("unstructured"))
         continue;  // locked: lambda is not unique
       for (std::size_t k = 0; k < obstacles().size(); ++k) {
-        SCOPED_TRACE(space.name + ", epsilon " + std::to_string(epsilon) + ", obstacle " + std::to_string(k));
+        SCOPED_TRACE(space.name + ", epsilon " + std::to_string(epsilon) + ", obstacle " +
+                     std::to_string(k));
         const VariationalInequality problem = stiff_problem(space, epsilon, obstacles()[k]);
         const test::BruteForce exact = test::brute_force(problem);
         const Solution solution = active_set(problem);
@@ -46,15 +48,19 @@ TEST(ActiveSet, IsTheBruteForceAnswer) {
 }
 
 TEST(ActiveSet, LimitProblemOnAStructuredMeshIsVentcels) {
-  // at epsilon = 0 the layer's u is constant along y, and its energy is the Ventcel term: (24) is (25), also discretely
+  // at epsilon = 0 the layer's u is constant along y, and its energy is the Ventcel term: (24) is
+  // (25), also discretely
   const TriangleMesh both = structured_mesh(12), body = structured_mesh(12, {0});
   for (const Element* element : {&p1(), &crouzeix_raviart()})
     for (const UnilateralContact& obstacle : obstacles()) {
       const Space on_both(both, *element), on_body(body, *element);
       const VariationalInequality in_layer = stiff_problem(on_both, 0, obstacle),
-                                  on_line = assemble(Scene({paper_load}, VentcelLayer{}, obstacle), on_body);
+                                  on_line = assemble(Scene({paper_load}, VentcelLayer{}, obstacle),
+                                                     on_body);
       const Solution limit = active_set(in_layer), ventcel = active_set(on_line);
-      EXPECT_LT(relative_difference(limit.u(on_both.contact_dofs()), ventcel.u(on_body.contact_dofs())), 1e-8);
+      EXPECT_LT(
+          relative_difference(limit.u(on_both.contact_dofs()), ventcel.u(on_body.contact_dofs())),
+          1e-8);
       EXPECT_NEAR(energy(in_layer, limit), energy(on_line, ventcel), 1e-9);
       EXPECT_LT(relative_difference(limit.lambda, ventcel.lambda), 1e-8);
       EXPECT_EQ(limit.active, ventcel.active);
@@ -79,10 +85,12 @@ TEST(ActiveSet, NestedStartKeepsTheStepsAtFourAndCorrectionsAtTen) {
         if (!structured && element == &p1()) continue;  // locks: another test
         const Space space(mesh, *element);
         for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0}) {
-          if (cells == 128 && epsilon != 1e-1 && epsilon != 0) continue;  // the two hardest, for the sake of time
+          if (cells == 128 && epsilon != 1e-1 && epsilon != 0)
+            continue;  // the two hardest, for the sake of time
           const Counters c = active_set(stiff_problem(space, epsilon)).counters;
           const std::string where = element->name() + (structured ? "" : " unstructured") +
-                                    ", 1/h = " + std::to_string(cells) + ", epsilon = " + std::to_string(epsilon);
+                                    ", 1/h = " + std::to_string(cells) +
+                                    ", epsilon = " + std::to_string(epsilon);
           EXPECT_LE(c.contact_iterations, 4) << where;
           EXPECT_GE(c.contact_iterations, 1) << where;
           EXPECT_LE(c.corrections, 10) << where;
@@ -114,10 +122,11 @@ TEST(ActiveSet, NeverReturnsAnUnconvergedAnswer) {
   expect_refused([&] { active_set(problem, options); }, "contact: the start has");
 }
 
-// x -> x + g(x) contracts by 0.9 in one unknown and by 0.1 in the others. A mix makes g fall faster than the plain steps
-// do, and an error estimate made of that would stop ten times too early.
+// x -> x + g(x) contracts by 0.9 in one unknown and by 0.1 in the others. A mix makes g fall faster
+// than the plain steps do, and an error estimate made of that would stop ten times too early.
 TEST(Anderson, TheContractionIsThatOfThePlainSteps) {
-  const Eigen::VectorXd rate = Eigen::Vector4d(0.9, 0.1, 0.08, 0.05), fixed_point = Eigen::Vector4d(1, 1, -2, 3);
+  const Eigen::VectorXd rate = Eigen::Vector4d(0.9, 0.1, 0.08, 0.05),
+                        fixed_point = Eigen::Vector4d(1, 1, -2, 3);
   Anderson anderson;
   DoubleDoubleVector x(Eigen::VectorXd::Zero(4)), companion = x;
   double before = 1;
@@ -140,7 +149,8 @@ TEST(Anderson, TheContractionIsThatOfThePlainSteps) {
   }
 }
 
-// Locked P1 under a penalty a hundred times too large: corrections contract by 0.9, and the answer is still right.
+// Locked P1 under a penalty a hundred times too large: corrections contract by 0.9, and the answer
+// is still right.
 TEST(ActiveSet, SlowCorrectionsDoNotStopEarly) {
   const TriangleMesh mesh = unstructured_mesh(8);
   const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 1e-6);
@@ -150,7 +160,8 @@ TEST(ActiveSet, SlowCorrectionsDoNotStopEarly) {
     options.penalty = penalty;
     const Solution slow = active_set(problem, options);
     EXPECT_GT(slow.counters.corrections, right.counters.corrections) << penalty;
-    EXPECT_LT(relative_difference(slow.u, right.u), 3e-10) << penalty;  // twice the tolerance, and |u| < |u before|
+    EXPECT_LT(relative_difference(slow.u, right.u), 3e-10)
+        << penalty;  // twice the tolerance, and |u| < |u before|
   }
 }
 
@@ -163,7 +174,8 @@ TEST(PenalisedCholesky, ForwardAndBackwardSolveWithK) {
     factor.refactor(delta);
     EXPECT_EQ(factor.delta(), delta);
     const std::vector<int>& unknown = factor.ordering().dof;
-    const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + test::gram(problem.b, problem.m) / delta;
+    const Eigen::MatrixXd k =
+        Eigen::MatrixXd(problem.a1) + test::gram(problem.b, problem.m) / delta;
     const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(problem.free_count(), -1, 2);
     const Eigen::VectorXd x = factor.cholesky().backward(factor.cholesky().forward(r));
     const Eigen::VectorXd exact = Cholesky(k(unknown, unknown)).solve(r);
@@ -172,24 +184,30 @@ TEST(PenalisedCholesky, ForwardAndBackwardSolveWithK) {
   EXPECT_EQ(factor.factorisations(), 3);
 }
 
-// A harder question moves its delta, and one too small for its digits is raised; each question has the answer of its own.
+// A harder question moves its delta, and one too small for its digits is raised; each question has
+// the answer of its own.
 TEST(PenalisedCholesky, ServesEveryComplianceAndEveryDeltaAskedFor) {
-  VariationalInequality graded = small_problem(Eigen::Vector3d(1, 1e-8, 1e-8).asDiagonal(), Eigen::Vector3d(1, 1e-8, 0),
-                                               Eigen::VectorXd(), Eigen::Matrix<double, 2, 3>{{1, 0, 0}, {0, 1, 1}});
+  VariationalInequality graded =
+      small_problem(Eigen::Vector3d(1, 1e-8, 1e-8).asDiagonal(), Eigen::Vector3d(1, 1e-8, 0),
+                    Eigen::VectorXd(), Eigen::Matrix<double, 2, 3>{{1, 0, 0}, {0, 1, 1}});
   PenalisedCholesky factor(graded, 1);
   Sweep sweep(graded);
-  for (const double c : {1.0, 0.0, 1.0, 0.0}) {  // u_1 = 1 / (1 + 1 / c), u_2 - u_3 = 1, u_2 + u_3 = 1 / (1 + 2e8 / c)
+  for (const double c :
+       {1.0, 0.0, 1.0,
+        0.0}) {  // u_1 = 1 / (1 + 1 / c), u_2 - u_3 = 1, u_2 + u_3 = 1 / (1 + 2e8 / c)
     graded.compliance = c;
     sweep.set_compliance(c);
     const double sum = c / (c + 2e8);
     for (const Solution& s : {active_set(graded, factor), sweep.solve(), sweep.solve()})
-      EXPECT_LT((s.u - Eigen::Vector3d(c / (c + 1), (sum + 1) / 2, (sum - 1) / 2)).norm(), 1e-9) << c;
+      EXPECT_LT((s.u - Eigen::Vector3d(c / (c + 1), (sum + 1) / 2, (sum - 1) / 2)).norm(), 1e-9)
+          << c;
   }
 }
 
 TEST(ActiveSet, EndsWhereNumbersOverflowAndRefusesATolerance0) {
   VariationalInequality problem =
-      small_problem(Eigen::Matrix2d{{1, -0.99}, {-0.99, 1}}, Eigen::Vector2d(1e307, 1e307), Eigen::Vector2d(0, 0));
+      small_problem(Eigen::Matrix2d{{1, -0.99}, {-0.99, 1}}, Eigen::Vector2d(1e307, 1e307),
+                    Eigen::Vector2d(0, 0));
   problem.bounds.upper = Eigen::Vector2d(1, 2);
   EXPECT_EQ(active_set(problem).u, problem.bounds.upper);
   ActiveSetOptions options;
@@ -199,7 +217,8 @@ TEST(ActiveSet, EndsWhereNumbersOverflowAndRefusesATolerance0) {
 
 TEST(Combinations, LeaveTiedRowsTied) {
   VariationalInequality problem =
-      small_problem(Eigen::Matrix2d{{2, -1}, {-1, 2}}, Eigen::Vector2d(1, 0.5), {}, Eigen::RowVector2d(1, 1), 1e-3);
+      small_problem(Eigen::Matrix2d{{2, -1}, {-1, 2}}, Eigen::Vector2d(1, 0.5), {},
+                    Eigen::RowVector2d(1, 1), 1e-3);
   problem.fixed_compliances = Eigen::VectorXd::Zero(1);
   const RowMatrix row = Eigen::MatrixXd(Eigen::RowVector2d(1, -3)).sparseView();
   problem.bounds = {{}, BoundLimits(Eigen::VectorXd::Constant(1, -10)), row};
@@ -218,7 +237,8 @@ TEST(Progress, IsReportedOncePerCorrectionAndStopsTheSolve) {
   };
   const Solution followed = active_set(problem, options);
   EXPECT_EQ(followed.u, alone.u);
-  ASSERT_EQ(static_cast<int>(seen.size()), followed.counters.corrections);  // the last one is the answer
+  ASSERT_EQ(static_cast<int>(seen.size()),
+            followed.counters.corrections);  // the last one is the answer
   for (std::size_t i = 0; i < seen.size(); ++i) {
     EXPECT_EQ(seen[i].step, static_cast<int>(i) + 1);
     EXPECT_EQ(seen[i].tolerance, options.corrections.tolerance);
@@ -226,7 +246,8 @@ TEST(Progress, IsReportedOncePerCorrectionAndStopsTheSolve) {
   options.corrections.progress = [](const Progress& now) { return now.step < 2; };
   const auto stopped = thrown<Interrupted>([&] { active_set(problem, options); });
   EXPECT_EQ(stopped.steps, 2);
-  EXPECT_NE(std::string(stopped.what()).find("stopped as asked"), std::string::npos) << stopped.what();
+  EXPECT_NE(std::string(stopped.what()).find("stopped as asked"), std::string::npos)
+      << stopped.what();
 }
 
 TEST(Progress, StopsUzawaAmongItsSteps) {

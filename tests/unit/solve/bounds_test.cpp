@@ -1,5 +1,5 @@
-// Bounds of other shapes: from above, from both sides, on constraints of several unknowns. The same solvers, the same
-// report.
+// Bounds of other shapes: from above, from both sides, on constraints of several unknowns. The same
+// solvers, the same report.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <numeric>
@@ -27,11 +27,12 @@ RowMatrix rows_of(const Eigen::MatrixXd& rows) {
 
 // ---- A string between a floor and a ceiling.
 
-/// -u'' = f on (0, 1), u = 0 at the ends, f = Q on the left half and -Q on the right one, -floor <= u <= ceiling. A
-/// parabola of curvature Q leaves each bound with slope 0. From the clamp to the ceiling it takes c_1, from the floor to
-/// the clamp c_2 and from the middle to either s:
+/// -u'' = f on (0, 1), u = 0 at the ends, f = Q on the left half and -Q on the right one, -floor <=
+/// u <= ceiling. A parabola of curvature Q leaves each bound with slope 0. From the clamp to the
+/// ceiling it takes c_1, from the floor to the clamp c_2 and from the middle to either s:
 ///     ceiling = Q c_1^2 / 2,   floor = Q c_2^2 / 2,   ceiling + floor = Q s^2.
-/// With c_1 = 7 h, c_2 = h, s = 5 h the ends of contact are nodes, and P1 is exact at the nodes, forces included.
+/// With c_1 = 7 h, c_2 = h, s = 5 h the ends of contact are nodes, and P1 is exact at the nodes,
+/// forces included.
 struct String {
   int n = 32;
   double h = 1.0 / 32, load = 3, ceiling = load * 49 * h * h / 2, floor = load * h * h / 2;
@@ -47,12 +48,15 @@ struct String {
     problem.a1.setFromTriplets(a1.begin(), a1.end());
     problem.b.resize(0, n + 1);
     problem.load.resize(n + 1);
-    for (int i = 0; i <= n; ++i) problem.load(i) = i == n / 2 ? 0 : i < n / 2 ? load * h : -load * h;
+    for (int i = 0; i <= n; ++i)
+      problem.load(i) = i == n / 2 ? 0 : i < n / 2 ? load * h : -load * h;
     problem.dirichlet_dofs = {0, n};
     problem.dirichlet_values = Eigen::Vector2d::Zero();
     std::vector<int> inside(n - 1);
     std::iota(inside.begin(), inside.end(), 1);
-    problem.bounds = {inside, {Eigen::VectorXd::Constant(n - 1, -floor), Eigen::VectorXd::Constant(n - 1, ceiling)}};
+    problem.bounds = {
+        inside,
+        {Eigen::VectorXd::Constant(n - 1, -floor), Eigen::VectorXd::Constant(n - 1, ceiling)}};
     u.setZero(n + 1);
     lambda.setZero(n - 1);
     const int on = 7, off = n / 2 - 5, down = n / 2 + 5, up = n - 1;
@@ -133,10 +137,13 @@ TEST(StringBetweenFloorAndCeiling, ASweepKeepsTheSides) {
   sweep.set_bounds(string.problem.bounds.lower, string.problem.bounds.upper);
   sweep.solve();
   sweep.set_bounds(string.problem.bounds.lower, Eigen::VectorXd::Constant(string.n - 1, infinity));
-  EXPECT_LT(relative_difference(sweep.solve().u, below), 1e-13) << "no upper bound is left to start from";
-  expect_refused([&] { sweep.set_bounds(string.problem.bounds.lower, Eigen::VectorXd()); }, "upper has 0 entries");
-  expect_refused([&] { sweep.set_bounds(string.problem.bounds.upper, string.problem.bounds.lower); },
-                 "accepted: lower <= upper");
+  EXPECT_LT(relative_difference(sweep.solve().u, below), 1e-13)
+      << "no upper bound is left to start from";
+  expect_refused([&] { sweep.set_bounds(string.problem.bounds.lower, Eigen::VectorXd()); },
+                 "upper has 0 entries");
+  expect_refused(
+      [&] { sweep.set_bounds(string.problem.bounds.upper, string.problem.bounds.lower); },
+      "accepted: lower <= upper");
   EXPECT_EQ(sweep.problem().bounds.upper(0), infinity) << "as before";
 }
 
@@ -168,7 +175,8 @@ TEST(Equations, ArePrescribedValuesWithTheirReaction) {
   const Space space(structured_mesh(6), p1());
   for (const double epsilon : {1.0, 1e-3, 0.0}) {
     VariationalInequality held = stiff_problem(space, epsilon);
-    for (Eigen::Index i = 0; i < held.bounds.lower.size(); ++i) held.bounds.lower(i) = i % 2 == 0 ? 0.01 : -0.01;
+    for (Eigen::Index i = 0; i < held.bounds.lower.size(); ++i)
+      held.bounds.lower(i) = i % 2 == 0 ? 0.01 : -0.01;
     held.bounds.upper = held.bounds.lower;
     held.bounds.upper(0) = infinity;  // one bound beside them
     const Solution s = active_set(held);
@@ -177,23 +185,29 @@ TEST(Equations, ArePrescribedValuesWithTheirReaction) {
     VariationalInequality fixed = held;
     fixed.dirichlet_dofs.insert(fixed.dirichlet_dofs.end(), held.bounds.unknowns.begin() + 1,
                                 held.bounds.unknowns.end());
-    fixed.dirichlet_values.conservativeResize(static_cast<Eigen::Index>(fixed.dirichlet_dofs.size()));
-    fixed.dirichlet_values.tail(held.bounds.lower.size() - 1) = held.bounds.lower.tail(held.bounds.lower.size() - 1);
+    fixed.dirichlet_values.conservativeResize(
+        static_cast<Eigen::Index>(fixed.dirichlet_dofs.size()));
+    fixed.dirichlet_values.tail(held.bounds.lower.size() - 1) =
+        held.bounds.lower.tail(held.bounds.lower.size() - 1);
     fixed.bounds = Bounds::lower_on({held.bounds.unknowns[0]}, held.bounds.lower.head(1));
     const Solution exact = active_set(fixed);
     EXPECT_LT(relative_difference(s.u, exact.u), 1e-9) << epsilon;
     const Eigen::VectorXd reaction = -exact_residual(fixed, exact.u, exact.p, exact.lambda).r1;
     for (std::size_t i = 1; i < held.bounds.unknowns.size(); ++i)
-      EXPECT_NEAR(s.lambda(static_cast<Eigen::Index>(i)), reaction(held.bounds.unknowns[i]), 1e-9) << epsilon;
-    EXPECT_LT(s.lambda.minCoeff() * s.lambda.maxCoeff(), 0) << "reactions of both signs: the test means something";
+      EXPECT_NEAR(s.lambda(static_cast<Eigen::Index>(i)), reaction(held.bounds.unknowns[i]), 1e-9)
+          << epsilon;
+    EXPECT_LT(s.lambda.minCoeff() * s.lambda.maxCoeff(), 0)
+        << "reactions of both signs: the test means something";
     EXPECT_EQ(s.warning, "");
   }
 }
 
 // ---- Against all sets of bounds.
 
-/// Two layers with their bodies on top of each other, their lines Gamma_C facing one another: u^1 - u^2 >= -gap there.
-VariationalInequality two_bodies(const VariationalInequality& one, const VariationalInequality& other, double gap) {
+/// Two layers with their bodies on top of each other, their lines Gamma_C facing one another: u^1 -
+/// u^2 >= -gap there.
+VariationalInequality two_bodies(const VariationalInequality& one,
+                                 const VariationalInequality& other, double gap) {
   const auto beside = [](const auto& a, const auto& b) {
     Eigen::MatrixXd both = Eigen::MatrixXd::Zero(a.rows() + b.rows(), a.cols() + b.cols());
     both.topLeftCorner(a.rows(), a.cols()) = Eigen::MatrixXd(a);
@@ -212,7 +226,8 @@ VariationalInequality two_bodies(const VariationalInequality& one, const Variati
   both.dirichlet_dofs = one.dirichlet_dofs;
   for (const int i : other.dirichlet_dofs) both.dirichlet_dofs.push_back(one.size() + i);
   both.dirichlet_values = then(one.dirichlet_values, other.dirichlet_values);
-  Eigen::MatrixXd gaps = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(one.bounds.unknowns.size()), both.size());
+  Eigen::MatrixXd gaps =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(one.bounds.unknowns.size()), both.size());
   for (Eigen::Index k = 0; k < gaps.rows(); ++k) {
     gaps(k, one.bounds.unknowns[k]) = 1;
     gaps(k, one.size() + other.bounds.unknowns[k]) = -1;
@@ -222,13 +237,16 @@ VariationalInequality two_bodies(const VariationalInequality& one, const Variati
 }
 
 TEST(TwoBodies, OfEqualShapeMeetHalfWay) {
-  // the second body is the image of the first in the plane between them: each sees an obstacle at half the gap
+  // the second body is the image of the first in the plane between them: each sees an obstacle at
+  // half the gap
   for (const NamedSpace& space : two_square_spaces(8, {&p1(), &crouzeix_raviart()})) {
-    if (&space.element() == &p1() && space.name.starts_with("unstructured")) continue;  // locks: lambda has no bound
+    if (&space.element() == &p1() && space.name.starts_with("unstructured"))
+      continue;  // locks: lambda has no bound
     for (const double compliance : {1.0, 1e-6, 0.0}) {
       SCOPED_TRACE(space.name + std::to_string(compliance));
       constexpr double gap = 1e-5;
-      const VariationalInequality one = stiff_problem(space, std::sqrt(compliance), {[](double) { return gap / 2; }});
+      const VariationalInequality one =
+          stiff_problem(space, std::sqrt(compliance), {[](double) { return gap / 2; }});
       VariationalInequality image = one;
       image.load *= -1;
       const Solution half = active_set(one);
@@ -247,8 +265,8 @@ TEST(TwoBodies, OfEqualShapeMeetHalfWay) {
 }
 
 TEST(Bounds, OfAllShapesAreTheBruteForceAnswer) {
-  // a layer with its first contact unknown between two bounds, the second from above, the third in a combination with the
-  // unknown over it and a clamped one, whose value is not zero
+  // a layer with its first contact unknown between two bounds, the second from above, the third in
+  // a combination with the unknown over it and a clamped one, whose value is not zero
   const Space space(structured_mesh(4), p1());
   for (const double epsilon : {1.0, 1e-2, 1e-4})
     for (const double load : {1.0, -1.0, 0.1}) {
@@ -272,8 +290,10 @@ TEST(Bounds, OfAllShapesAreTheBruteForceAnswer) {
       const test::BruteForce exact = test::brute_force(problem);
       for (const Solution& s : {active_set(problem), uzawa(problem)}) {
         const double within = s.solver == "uzawa" ? 1e-7 : 1e-9;
-        EXPECT_LT(relative_difference(s.u, exact.u), within) << s.solver << epsilon << ", load " << load;
-        EXPECT_LT(relative_difference(s.lambda, exact.lambda), 10 * within) << s.solver << epsilon << ", load " << load;
+        EXPECT_LT(relative_difference(s.u, exact.u), within)
+            << s.solver << epsilon << ", load " << load;
+        EXPECT_LT(relative_difference(s.lambda, exact.lambda), 10 * within)
+            << s.solver << epsilon << ", load " << load;
         EXPECT_EQ(s.active, exact.active) << s.solver << epsilon << ", load " << load;
         EXPECT_EQ(s.u(problem.dirichlet_dofs[0]), 0.02);
       }
@@ -282,7 +302,8 @@ TEST(Bounds, OfAllShapesAreTheBruteForceAnswer) {
 
 // ---- A block on a slope.
 
-/// The platen of plane strain, turned by `angle`: clamped above and pushed 0.1 into an obstacle below.
+/// The platen of plane strain, turned by `angle`: clamped above and pushed 0.1 into an obstacle
+/// below.
 struct Turned {
   Space x, y;
   VariationalInequality problem;
@@ -295,9 +316,12 @@ struct Turned {
     for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
       problem.dirichlet_values(static_cast<Eigen::Index>(i)) =
           problem.dirichlet_dofs[i] < x.size() ? 0.1 * s : -0.1 * c;
-    const auto along = [&](int i) { return c * x.dof_coordinates()(i, 0) + s * x.dof_coordinates()(i, 1); };
-    std::sort(problem.bounds.unknowns.begin(), problem.bounds.unknowns.end(),
-              [&](int i, int j) { return along(i - x.size()) < along(j - x.size()); });  // as on the flat one
+    const auto along = [&](int i) {
+      return c * x.dof_coordinates()(i, 0) + s * x.dof_coordinates()(i, 1);
+    };
+    std::sort(problem.bounds.unknowns.begin(), problem.bounds.unknowns.end(), [&](int i, int j) {
+      return along(i - x.size()) < along(j - x.size());
+    });  // as on the flat one
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(problem.bounds.lower.size(), problem.size());
     for (Eigen::Index k = 0; k < normal.rows(); ++k) {
       const int i = problem.bounds.unknowns[k] - x.size();
@@ -320,15 +344,18 @@ TEST(BlockOnASlope, IsTheFlatOneTurned) {
   for (const auto& [mesh, element] : {std::pair{&crossed, &p1()}, {&right, &crouzeix_raviart()}})
     for (const double epsilon : {1.0, 1e-6, 0.0}) {
       const Space x(*mesh, *element), y(*mesh, *element);
-      const Solution flat = active_set(assemble(platen(epsilon, element->conforming() ? 0 : 1), {x, y}));
+      const Solution flat =
+          active_set(assemble(platen(epsilon, element->conforming() ? 0 : 1), {x, y}));
       EXPECT_GT(std::count(flat.active.begin(), flat.active.end(), true), 2);
       EXPECT_GT(std::count(flat.active.begin(), flat.active.end(), false), 2);
       for (const double angle : {0.5, 2.2, -1.5707963267948966}) {
-        SCOPED_TRACE(element->name() + ", epsilon " + std::to_string(epsilon) + ", angle " + std::to_string(angle));
+        SCOPED_TRACE(element->name() + ", epsilon " + std::to_string(epsilon) + ", angle " +
+                     std::to_string(angle));
         const Turned slope(*mesh, angle, *element, epsilon);
         const Solution s = active_set(slope.problem);
         const Eigen::MatrixX2d back =
-            s.u.reshaped(x.size(), 2) * Eigen::Rotation2Dd(angle).toRotationMatrix();  // a point per row
+            s.u.reshaped(x.size(), 2) *
+            Eigen::Rotation2Dd(angle).toRotationMatrix();  // a point per row
         EXPECT_LT(relative_difference(back.reshaped(), flat.u), 1e-10);
         EXPECT_LT(relative_difference(s.lambda, flat.lambda), 1e-9);
         EXPECT_EQ(s.active, flat.active);
@@ -342,13 +369,15 @@ TEST(BlockOnASlope, IsTheFlatOneTurned) {
 
 /// Three points (u_x, u_y) on springs.
 VariationalInequality springs(const Eigen::MatrixXd& rows, const Eigen::VectorXd& load) {
-  VariationalInequality problem = small_problem(Eigen::MatrixXd::Identity(load.size(), load.size()), load);
+  VariationalInequality problem =
+      small_problem(Eigen::MatrixXd::Identity(load.size(), load.size()), load);
   problem.bounds = {{}, BoundLimits(Eigen::VectorXd::Zero(rows.rows())), rows_of(rows)};
   return problem;
 }
 
 TEST(Combinations, APointInAGrooveStandsOnBothWalls) {
-  // walls of normals (sin a, cos a) and (-sin a, cos a): no unknown is one wall's alone. Pressed into the edge u = 0.
+  // walls of normals (sin a, cos a) and (-sin a, cos a): no unknown is one wall's alone. Pressed
+  // into the edge u = 0.
   const double a = 0.7;
   Eigen::MatrixXd walls(2, 2);
   walls << std::sin(a), std::cos(a), -std::sin(a), std::cos(a);
@@ -371,7 +400,8 @@ TEST(Combinations, MayShareUnknownsAndDependOnEachOther) {
     const test::ExactAnswer exact = test::exact_answer(problem);
     ASSERT_EQ(exact.what, test::Exactly::solved);
     for (const Solution& s : {active_set(problem), uzawa(problem)})
-      EXPECT_LT((s.u - exact.u).lpNorm<Eigen::Infinity>(), 1e-8 * exact.u.lpNorm<Eigen::Infinity>()) << s.solver;
+      EXPECT_LT((s.u - exact.u).lpNorm<Eigen::Infinity>(), 1e-8 * exact.u.lpNorm<Eigen::Infinity>())
+          << s.solver;
   };
   Eigen::MatrixXd rows(3, 4);
   rows << 1, -1, 0, 0, 0, 1, -1, 0, 1, 0, -1, 0;  // the third is the sum of the others
@@ -413,7 +443,8 @@ TEST(Bounds, ThatNoUCanMeetAreRefusedUnderAnyLoad) {
   // compliance 0 and B: u_0 - u_1 = 0; the bounds ask for u_0 - u_1 >= 0.05, in three shapes
   for (const double load : {1.0, 1e6, 1e12, 1e18})
     for (const int shape : {0, 1, 2}) {
-      VariationalInequality problem = springs(Eigen::MatrixXd(0, 3), load * Eigen::Vector3d(1, 2, -3));
+      VariationalInequality problem =
+          springs(Eigen::MatrixXd(0, 3), load * Eigen::Vector3d(1, 2, -3));
       problem.b = rows_of(Eigen::RowVector3d(1, -1, 0));
       problem.m = Eigen::VectorXd::Ones(1);
       problem.compliance = 0;
@@ -435,7 +466,8 @@ TEST(Bounds, ThatNoUCanMeetAreRefusedUnderAnyLoad) {
 }
 
 TEST(Bounds, AGreatUElsewhereHidesNoUpperBound) {
-  // where a bound or B may be impossible to meet every violation counts: u_1 stops at 0.1 though u_0 is 1e14
+  // where a bound or B may be impossible to meet every violation counts: u_1 stops at 0.1 though
+  // u_0 is 1e14
   VariationalInequality problem = springs(Eigen::MatrixXd(0, 4), Eigen::Vector4d(1e14, 0.2, 1, -1));
   problem.b = rows_of(Eigen::RowVector4d(0, 0, 1, 0));
   problem.m = Eigen::VectorXd::Ones(1);
@@ -461,10 +493,12 @@ TEST(KktOfBounds, ReportsEachSideOfABoundByItself) {
   // a force that is right at one side is none at the other: the gap times the force tells
   wrong = right;
   wrong.lambda(top - 1) *= -1;
-  EXPECT_NEAR(kkt_report(string.problem, wrong).complementarity, (string.ceiling + string.floor) / u, 1e-12);
+  EXPECT_NEAR(kkt_report(string.problem, wrong).complementarity,
+              (string.ceiling + string.floor) / u, 1e-12);
   wrong = right;
   wrong.lambda(between - 1) = 0.1 * f;
-  EXPECT_NEAR(kkt_report(string.problem, wrong).complementarity, 0.1 * (right.u(between) + string.floor) / u, 1e-12);
+  EXPECT_NEAR(kkt_report(string.problem, wrong).complementarity,
+              0.1 * (right.u(between) + string.floor) / u, 1e-12);
   // from above alone, a push from below is wrong whatever the gap
   VariationalInequality above = string.problem;
   above.bounds.lower.setConstant(-infinity);
@@ -484,16 +518,19 @@ TEST(KktOfBounds, ReportsCombinationsInTheirOwnUnits) {
   EXPECT_EQ(u, 5);
   Solution wrong = right;
   wrong.u(0) -= 0.1 * u;
-  EXPECT_NEAR(kkt_report(problem, wrong).min_gap, -0.05, 1e-12);  // of 1e3 (u_0 - u_1), at most 2e3 |u|
+  EXPECT_NEAR(kkt_report(problem, wrong).min_gap, -0.05,
+              1e-12);  // of 1e3 (u_0 - u_1), at most 2e3 |u|
   wrong = right;
   wrong.lambda(0) = -1e-4;
-  EXPECT_LT(kkt_report(problem, wrong).min_pressure, -0.01) << "a pull on two soft unknowns beside a great load";
+  EXPECT_LT(kkt_report(problem, wrong).min_pressure, -0.01)
+      << "a pull on two soft unknowns beside a great load";
   EXPECT_GT(kkt_report(problem, wrong).residual, 0.01);
 }
 
 TEST(CheckBounds, RefusesBoundsThatAreNone) {
   const String string;
-  const auto refused = [&](const std::function<void(VariationalInequality&)>& spoil, const std::string& words) {
+  const auto refused = [&](const std::function<void(VariationalInequality&)>& spoil,
+                           const std::string& words) {
     VariationalInequality bad = string.problem;
     spoil(bad);
     expect_refused([&] { check(bad); }, words);
@@ -504,7 +541,8 @@ TEST(CheckBounds, RefusesBoundsThatAreNone) {
   using P = VariationalInequality;
   const double nan = std::nan("");
   refused([](P& p) { p.bounds.lower(3) = p.bounds.upper(3) + 1e-9; }, "accepted: lower <= upper");
-  refused([](P& p) { p.bounds.lower(3) = -infinity, p.bounds.upper(3) = infinity; }, "bound 3 is not finite");
+  refused([](P& p) { p.bounds.lower(3) = -infinity, p.bounds.upper(3) = infinity; },
+          "bound 3 is not finite");
   refused([](P& p) { p.bounds.lower(3) = infinity; }, "bound 3 is not finite");
   refused([](P& p) { p.bounds.upper(3) = -infinity; }, "bound 3 is not finite");
   refused([nan](P& p) { p.bounds.upper(3) = nan; }, "not finite");
@@ -519,7 +557,8 @@ TEST(CheckBounds, RefusesBoundsThatAreNone) {
   };
   refused([&](P& p) { with_row(p, nan); }, "an entry of constraints is not finite");
   refused([&](P& p) { with_row(p, 0); }, "constraint 0 holds no free unknown");
-  refused([&](P& p) { with_row(p, 1), p.bounds.lower.conservativeResize(3); }, "one bound per contact unknown and per");
+  refused([&](P& p) { with_row(p, 1), p.bounds.lower.conservativeResize(3); },
+          "one bound per contact unknown and per");
   refused([&](P& p) { with_row(p, 1), p.bounds.constraints.uncompress(); }, "compressed");
 }
 
@@ -542,7 +581,8 @@ TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
   const Solution s = active_set(above);
   const Eigen::MatrixX3d table = contact_table({space, above, s});
   EXPECT_GE(table.col(1).minCoeff(), -1e-15);
-  EXPECT_EQ(contact_zone({space, above, s}).active, std::count(s.active.begin(), s.active.end(), true));
+  EXPECT_EQ(contact_zone({space, above, s}).active,
+            std::count(s.active.begin(), s.active.end(), true));
   const std::string words = "accepted: bounds on unknowns";
   const Solution c = active_set(combined);
   expect_refused([&] { contact_table({space, combined, c}); }, words);
@@ -550,7 +590,8 @@ TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
   // a combination of one unknown is that unknown, by a factor made before and in a sweep, too
   PenalisedCholesky factor(combined);
   const Eigen::VectorXd u = active_set(assemble(scene, space)).u;
-  for (const Solution& answer : {c, active_set(combined, factor), uzawa(combined, factor), Sweep(combined).solve()})
+  for (const Solution& answer :
+       {c, active_set(combined, factor), uzawa(combined, factor), Sweep(combined).solve()})
     EXPECT_LT(relative_difference(answer.u, u), 1e-8) << answer.solver;
 }
 

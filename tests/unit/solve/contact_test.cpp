@@ -1,4 +1,5 @@
-// The contact problem on Gamma_C, between two bounds: a linear complementarity problem, solved from any start.
+// The contact problem on Gamma_C, between two bounds: a linear complementarity problem, solved from
+// any start.
 #include "antilock/solve/contact_systems.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
@@ -12,16 +13,20 @@ struct Box {
     SchurComplementContact system(s, q);
     return solve_contact(system, BoundLimits(lower, upper), start, max_iterations);
   }
-  BoundStatuses nested() const { return SchurComplementContact(s, q).nested_start(BoundLimits(lower, upper), 1000); }
+  BoundStatuses nested() const {
+    return SchurComplementContact(s, q).nested_start(BoundLimits(lower, upper), 1000);
+  }
 };
 
-/// S = A A' + I / 100, dense, no M-matrix: with a `rank` of A below `size` plain active-set exchanges may cycle. A third of
-/// the bounds from below alone, a sixth from above alone, a few equations.
+/// S = A A' + I / 100, dense, no M-matrix: with a `rank` of A below `size` plain active-set
+/// exchanges may cycle. A third of the bounds from below alone, a sixth from above alone, a few
+/// equations.
 Box random_box(int size, unsigned seed, int rank = 0) {
   std::mt19937 engine(seed);
   std::normal_distribution<double> normal;
   Box box;
-  const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(size, rank > 0 ? rank : size, [&] { return normal(engine); });
+  const Eigen::MatrixXd a =
+      Eigen::MatrixXd::NullaryExpr(size, rank > 0 ? rank : size, [&] { return normal(engine); });
   box.s = test::product(a, a.transpose()) + 1e-2 * Eigen::MatrixXd::Identity(size, size);
   box.q = Eigen::VectorXd::NullaryExpr(size, [&] { return normal(engine); });
   box.lower = Eigen::VectorXd::NullaryExpr(size, [&] { return 0.3 * normal(engine); });
@@ -40,10 +45,13 @@ void expect_right(const Box& box, const ContactResult& answer, double tolerance)
   const Eigen::VectorXd lambda = box.s * answer.v - box.q;
   EXPECT_LT((lambda - answer.lambda).lpNorm<Eigen::Infinity>(), tolerance);
   for (int i = 0; i < box.q.size(); ++i) {
-    const bool low = answer.status[i] == BoundStatus::at_lower, high = answer.status[i] == BoundStatus::at_upper;
+    const bool low = answer.status[i] == BoundStatus::at_lower,
+               high = answer.status[i] == BoundStatus::at_upper;
     EXPECT_GE(answer.v(i), box.lower(i) - tolerance);
     EXPECT_LE(answer.v(i), box.upper(i) + tolerance);
-    EXPECT_EQ(low || high ? answer.v(i) : answer.lambda(i), low ? box.lower(i) : high ? box.upper(i) : 0);
+    EXPECT_EQ(low || high ? answer.v(i) : answer.lambda(i), low    ? box.lower(i)
+                                                            : high ? box.upper(i)
+                                                                   : 0);
     if (box.lower(i) == box.upper(i)) continue;  // an equation: a force of either sign
     EXPECT_GE(high ? 0 : lambda(i), -tolerance);
     EXPECT_LE(low ? 0 : lambda(i), tolerance);
@@ -96,9 +104,10 @@ TEST(ContactProblem, AWrongSideCostsAStepPerStatus) {
 
 // The statuses in their order: v grows and lambda falls.
 TEST(ShiftedBounds, ValuesRiseAndForcesFallFromStatusToStatus) {
-  const ShiftedBounds bounds(BoundLimits(Eigen::VectorXd{{0}}, Eigen::VectorXd{{1}}, Eigen::VectorXd{{3}}));
-  const BoundStatuses all{BoundStatus::slip_below, BoundStatus::at_lower, BoundStatus::inactive, BoundStatus::at_upper,
-                          BoundStatus::slip_above};
+  const ShiftedBounds bounds(
+      BoundLimits(Eigen::VectorXd{{0}}, Eigen::VectorXd{{1}}, Eigen::VectorXd{{3}}));
+  const BoundStatuses all{BoundStatus::slip_below, BoundStatus::at_lower, BoundStatus::inactive,
+                          BoundStatus::at_upper, BoundStatus::slip_above};
   double v = -infinity, lambda = infinity;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const auto [low, high] = bounds.admissible_range(0, all[k]);
@@ -113,11 +122,13 @@ TEST(ShiftedBounds, ValuesRiseAndForcesFallFromStatusToStatus) {
   }
   EXPECT_EQ(v, infinity);
   EXPECT_EQ(lambda, -3);
-  // what a bound bears so far is left out of the forces that are given and found, and is in the whole force
+  // what a bound bears so far is left out of the forces that are given and found, and is in the
+  // whole force
   ShiftedBounds later = bounds;
   later.multiplier_estimate = Eigen::VectorXd{{0.5}};
   for (const BoundStatus status : all) {
-    const ShiftedBounds::Interval before = bounds.admissible_range(0, status), now = later.admissible_range(0, status);
+    const ShiftedBounds::Interval before = bounds.admissible_range(0, status),
+                                  now = later.admissible_range(0, status);
     const double moved = is_active(status) ? 0.5 : 0, given = bounds.prescribed(0, status);
     EXPECT_EQ(now.low, before.low - moved);
     EXPECT_EQ(now.high, before.high - moved);
@@ -127,7 +138,8 @@ TEST(ShiftedBounds, ValuesRiseAndForcesFallFromStatusToStatus) {
 }
 
 TEST(ShiftedBounds, AnEquationHasThreeStatusesAndIsNeverInactive) {
-  const ShiftedBounds bounds(BoundLimits(Eigen::VectorXd{{2}}, Eigen::VectorXd{{2}}, Eigen::VectorXd{{3}}));
+  const ShiftedBounds bounds(
+      BoundLimits(Eigen::VectorXd{{2}}, Eigen::VectorXd{{2}}, Eigen::VectorXd{{3}}));
   EXPECT_EQ(bounds.next(0, BoundStatus::slip_below, true), BoundStatus::at_lower);
   EXPECT_EQ(bounds.next(0, BoundStatus::at_lower, true), BoundStatus::slip_above);
   EXPECT_EQ(bounds.next(0, BoundStatus::slip_above, false), BoundStatus::at_lower);
@@ -146,7 +158,8 @@ TEST(ShiftedBounds, AStartAsksForStatusesThatExist) {
   const ShiftedBounds none(BoundLimits(Eigen::VectorXd{{-infinity}}));
   for (const P asked : {P::at_lower, P::at_upper, P::slip_above})
     EXPECT_EQ(none.nearest_valid({asked}), BoundStatuses{P::inactive});
-  const ShiftedBounds hard(BoundLimits(lower, upper)), soft(BoundLimits(lower, upper, Eigen::VectorXd::Ones(4)));
+  const ShiftedBounds hard(BoundLimits(lower, upper)),
+      soft(BoundLimits(lower, upper, Eigen::VectorXd::Ones(4)));
   EXPECT_EQ(hard.nearest_valid(BoundStatuses(4, P::at_upper)),
             (BoundStatuses{P::at_upper, P::at_lower, P::at_upper, P::at_lower}));
   EXPECT_EQ(hard.nearest_valid(BoundStatuses(4, P::at_lower)),
@@ -166,20 +179,27 @@ TEST(ShiftedBounds, AStartAsksForStatusesThatExist) {
 TEST(ShiftedBounds, NeedOneEntryPerBoundInEachVector) {
   const Eigen::VectorXd two = Eigen::VectorXd::Ones(2), none;
   for (const BoundLimits& limits : {BoundLimits(two, none), BoundLimits(two, two, none)})
-    test::expect_refused([&] { const ShiftedBounds bounds(limits); }, "accepted: one per bound in each");
-  test::expect_refused([&] { const ShiftedBounds bounds(BoundLimits(two), none); }, "have 2, 2, 2 and 0 entries");
+    test::expect_refused([&] { const ShiftedBounds bounds(limits); },
+                         "accepted: one per bound in each");
+  test::expect_refused([&] { const ShiftedBounds bounds(BoundLimits(two), none); },
+                       "have 2, 2, 2 and 0 entries");
 }
 
-/// A 1-D obstacle problem on n points, like the limit problem on Sigma: the case where a cold start takes O(n) steps.
+/// A 1-D obstacle problem on n points, like the limit problem on Sigma: the case where a cold start
+/// takes O(n) steps.
 Box obstacle(int n) {
-  Box r{Eigen::MatrixXd::Zero(n, n), {}, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Constant(n, infinity)};
+  Box r{Eigen::MatrixXd::Zero(n, n),
+        {},
+        Eigen::VectorXd::Zero(n),
+        Eigen::VectorXd::Constant(n, infinity)};
   const double h = 1.0 / (n + 1);
   for (int i = 0; i < n; ++i) {
     r.s(i, i) = 2 / h;
     if (i > 0) r.s(i, i - 1) = r.s(i - 1, i) = -1 / h;
   }
-  r.q = Eigen::VectorXd::NullaryExpr(
-      n, [&](Eigen::Index i) { return h * 10 * std::sin(2 * std::numbers::pi * static_cast<double>(i + 1) * h); });
+  r.q = Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index i) {
+    return h * 10 * std::sin(2 * std::numbers::pi * static_cast<double>(i + 1) * h);
+  });
   return r;
 }
 

@@ -1,4 +1,5 @@
-// Bounds that give way: Tresca's friction, and plastic obstacles. Sticks where |lambda| < g, slips where |lambda| = g.
+// Bounds that give way: Tresca's friction, and plastic obstacles. Sticks where |lambda| < g, slips
+// where |lambda| = g.
 #include <numeric>
 
 #include "antilock/measure/contact_zone.hpp"
@@ -21,10 +22,12 @@ namespace antilock::test::solve_test::friction_test {
 VariationalInequality random_friction(std::mt19937& engine) {
   std::normal_distribution<double> normal;
   const int n = 4 + static_cast<int>(engine() % 3), bounds = 2 + static_cast<int>(engine() % 3);
-  const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(n, n, [&](auto, auto) { return normal(engine); });
+  const Eigen::MatrixXd root =
+      Eigen::MatrixXd::NullaryExpr(n, n, [&](auto, auto) { return normal(engine); });
   Eigen::MatrixXd a1 = root * root.transpose();
   a1 = 0.5 * (a1 + a1.transpose().eval()) + 0.1 * Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(1, n, [&](auto, auto) { return normal(engine); });
+  const Eigen::MatrixXd b =
+      Eigen::MatrixXd::NullaryExpr(1, n, [&](auto, auto) { return normal(engine); });
   VariationalInequality problem = small_problem(a1, Eigen::VectorXd::Zero(n), {}, b);
   problem.compliance = std::vector{0.0, 1e-20, 1e-3, 1.0}[engine() % 4];
   problem.load = Eigen::VectorXd::NullaryExpr(n, [&](auto) { return normal(engine); });
@@ -33,8 +36,8 @@ VariationalInequality random_friction(std::mt19937& engine) {
   std::iota(unknowns.begin(), unknowns.end(), 0);
   Eigen::MatrixXd combination = Eigen::MatrixXd::Zero(rows, n);
   if (rows > 0) combination.row(0).tail(2) << 3 * normal(engine), normal(engine);
-  const Eigen::VectorXd lower =
-      Eigen::VectorXd::NullaryExpr(bounds + rows, [&](auto) { return -0.2 * std::abs(normal(engine)); });
+  const Eigen::VectorXd lower = Eigen::VectorXd::NullaryExpr(
+      bounds + rows, [&](auto) { return -0.2 * std::abs(normal(engine)); });
   problem.bounds = {unknowns, BoundLimits(lower), RowMatrix(combination.sparseView())};
   for (int i = 0; i < bounds + rows; ++i) {
     if (engine() % 4 == 0) {  // contact, or an equation
@@ -43,9 +46,10 @@ VariationalInequality random_friction(std::mt19937& engine) {
     }
     if (engine() % 4 == 0) continue;  // contact
     problem.bounds.force_limit(i) = 0.7 * std::abs(normal(engine));
-    if (engine() % 4 == 0) continue;                                             // a plastic obstacle
-    problem.bounds.upper(i) = problem.bounds.lower(i) = engine() % 3 ? 0 : 0.1;  // friction, about 0 or elsewhere
-    if (engine() % 5 == 0) problem.bounds.upper(i) += 0.05;                      // with play
+    if (engine() % 4 == 0) continue;  // a plastic obstacle
+    problem.bounds.upper(i) = problem.bounds.lower(i) =
+        engine() % 3 ? 0 : 0.1;                              // friction, about 0 or elsewhere
+    if (engine() % 5 == 0) problem.bounds.upper(i) += 0.05;  // with play
   }
   return problem;
 }
@@ -56,7 +60,8 @@ TEST(Friction, IsRightBesideContactInHundredsOfSmallProblems) {
   for (int trial = 0; trial < 400; ++trial) {
     SCOPED_TRACE(trial);
     const VariationalInequality problem = random_friction(engine);
-    VariationalInequality limit = problem;  // brute force sums A1 and B' M B / compliance: 1e-20 is 0 to all digits
+    VariationalInequality limit =
+        problem;  // brute force sums A1 and B' M B / compliance: 1e-20 is 0 to all digits
     if (problem.compliance == 1e-20) limit.compliance = 0;
     const test::BruteForce exact_solution = test::brute_force(limit);
     const double size = exact_solution.u.lpNorm<Eigen::Infinity>();
@@ -72,7 +77,8 @@ TEST(Friction, IsRightBesideContactInHundredsOfSmallProblems) {
     }
     for (Eigen::Index i = 0; i < exact_solution.lambda.size(); ++i) {
       if (std::isinf(problem.bounds.force_limit(i))) continue;
-      const bool slipped = std::abs(exact_solution.lambda(i)) >= problem.bounds.force_limit(i) * (1 - 1e-12);
+      const bool slipped =
+          std::abs(exact_solution.lambda(i)) >= problem.bounds.force_limit(i) * (1 - 1e-12);
       ++(slipped ? slips : sticks);
       EXPECT_EQ(answers[0].active[i], exact_solution.active[i]) << i;
     }
@@ -90,25 +96,31 @@ TEST(Friction, ABarSlipsAsFarAsItsPullReaches) {
     const Eigen::VectorXd exact = 0.5 * (x - 1 + pull).max(0).square();
     const Solution s = active_set(bar);
     errors.push_back((s.u - exact).lpNorm<Eigen::Infinity>());
-    EXPECT_LE(errors.back(), 1.0 / (8 * n * n)) << n;  // the end of the slip lies within a cell: h^2 / 8
+    EXPECT_LE(errors.back(), 1.0 / (8 * n * n))
+        << n;  // the end of the slip lies within a cell: h^2 / 8
     EXPECT_LT((uzawa(bar).u - s.u).lpNorm<Eigen::Infinity>(), 1e-8);
     EXPECT_NEAR(s.lambda.sum(), -pull, 1e-12);  // the floor bears all
     for (Eigen::Index i = 0; i < s.lambda.size(); ++i)
-      EXPECT_EQ(s.active[i], s.lambda(i) > -bar.bounds.force_limit(i)) << "sticks where it bears less than it can";
+      EXPECT_EQ(s.active[i], s.lambda(i) > -bar.bounds.force_limit(i))
+          << "sticks where it bears less than it can";
     EXPECT_LE(s.counters.contact_iterations, 8);
   }
 }
 
-// The pull is what one node bears, or all of them together: lambda = -g where u = 0, to the last bit.
+// The pull is what one node bears, or all of them together: lambda = -g where u = 0, to the last
+// bit.
 TEST(Friction, ABoundThatBearsExactlyItsMostIsNoTrouble) {
   for (const int n : {2, 8, 64})
     for (const double pull : {0.5 / n, 1.5 / n, 2.5 / n, (n - 0.5) / n}) {
       const VariationalInequality bar = bar_on_a_floor(n, pull);
       std::vector<Solution> answers{active_set(bar)};
-      if (pull * n > 1) answers.push_back(uzawa(bar));  // where all sticks u = 0: its step is never small beside u
+      if (pull * n > 1)
+        answers.push_back(uzawa(bar));  // where all sticks u = 0: its step is never small beside u
       for (const Solution& s : answers) {
-        const int slips = static_cast<int>(std::lround(pull * n - 0.5));  // nodes beyond the one that just sticks
-        for (int i = 0; i + slips < n; ++i) EXPECT_NEAR(s.u(i), 0, 1e-9) << s.solver << n << ' ' << pull;
+        const int slips =
+            static_cast<int>(std::lround(pull * n - 0.5));  // nodes beyond the one that just sticks
+        for (int i = 0; i + slips < n; ++i)
+          EXPECT_NEAR(s.u(i), 0, 1e-9) << s.solver << n << ' ' << pull;
         EXPECT_LT(worst_violation(s.kkt), 1e-9);
       }
     }
@@ -128,8 +140,10 @@ TEST(Friction, HasTheEnergyThatNothingNearbyHas) {
   Solution still = s;
   still.u.setZero();
   EXPECT_EQ(friction_energy(bar.bounds, still.u), 0);
-  EXPECT_EQ(distance_to_bound(bar.bounds, s.u).minCoeff(), infinity);  // what gives way leaves every u admissible
-  EXPECT_NEAR(friction_energy(bar.bounds, Eigen::VectorXd::Ones(21)), 1 - 0.5 / 20, 1e-14);  // 21 terms
+  EXPECT_EQ(distance_to_bound(bar.bounds, s.u).minCoeff(),
+            infinity);  // what gives way leaves every u admissible
+  EXPECT_NEAR(friction_energy(bar.bounds, Eigen::VectorXd::Ones(21)), 1 - 0.5 / 20,
+              1e-14);  // 21 terms
 }
 
 // g = 0 is no bound at all, g = infinity an equation, and a great g holds like one.
@@ -162,7 +176,8 @@ TEST(Friction, TheLoopEndsOnProblemsOnWhichExchangesCycle) {
     }
     SchurComplementContact system(random.s, random.q);
     const BoundStatuses start(n, trial % 2 == 1 ? BoundStatus::at_lower : BoundStatus::inactive);
-    const ContactResult answer = solve_contact(system, BoundLimits(random.lower, upper, most), start, 300);
+    const ContactResult answer =
+        solve_contact(system, BoundLimits(random.lower, upper, most), start, 300);
     const Eigen::VectorXd residual = random.s * answer.v - random.q - answer.lambda;
     EXPECT_LT(residual.lpNorm<Eigen::Infinity>(), 1e-8) << trial;
     for (int i = 0; i < n; ++i) {
@@ -205,7 +220,8 @@ TEST(Friction, TheBlockIsUniformInLambdaWhereItDoesNotLock) {
   for (const double epsilon : {1e-6, 1e-8, 1e-12, 1e-16, 1e-20}) {
     scene.epsilon = epsilon;
     const Solution s = active_set(assemble(scene, {x, y}));
-    EXPECT_LT((s.u - limit.u).lpNorm<Eigen::Infinity>(), epsilon + 1e-12) << epsilon;  // measured 0.05 epsilon
+    EXPECT_LT((s.u - limit.u).lpNorm<Eigen::Infinity>(), epsilon + 1e-12)
+        << epsilon;  // measured 0.05 epsilon
     EXPECT_LE(s.counters.corrections, 5);
     EXPECT_EQ(s.active, limit.active);
   }
@@ -225,8 +241,11 @@ TEST(Friction, ASweepOverItsBoundIsTheSameAsEachAlone) {
     EXPECT_LT((s.u - active_set(alone).u).lpNorm<Eigen::Infinity>(), 1e-13) << factor;
   }
   EXPECT_EQ(sweep.total().factorisations, 1);
-  expect_refused([&] { sweep.set_force_limit(Eigen::VectorXd::Constant(40, -1)); }, "force_limit 0 is -1");
-  EXPECT_LT((sweep.solve().u - active_set(bar_on_a_floor(40, 0.53)).u).lpNorm<Eigen::Infinity>(), 1e-13) << "as before";
+  expect_refused([&] { sweep.set_force_limit(Eigen::VectorXd::Constant(40, -1)); },
+                 "force_limit 0 is -1");
+  EXPECT_LT((sweep.solve().u - active_set(bar_on_a_floor(40, 0.53)).u).lpNorm<Eigen::Infinity>(),
+            1e-13)
+      << "as before";
 }
 
 TEST(Friction, TheReportSeesForcesBeyondTheirBoundAndSlipTheWrongWay) {
@@ -257,8 +276,13 @@ TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
   refused(nan, 4, "force_limit 0 is nan");
   refused(1, 3, "force_limit has 3 entries; accepted 4, as in lower");
   const Space space(structured_mesh(2), p1());
-  expect_refused([&] { contact_zone({space, good, active_set(good)}); }, "friction is not known here");
-  expect_refused([&] { require_lower_bounds(good.bounds, "certificate"); }, "certificate: friction is not known here");
+  expect_refused(
+      [&] {
+        contact_zone({space, good, active_set(good)});
+      },
+      "friction is not known here");
+  expect_refused([&] { require_lower_bounds(good.bounds, "certificate"); },
+                 "certificate: friction is not known here");
   ActiveSetOptions options;
   options.start = BoundStatuses(3, BoundStatus::inactive);
   expect_refused([&] { active_set(good, options); }, "3 statuses; accepted one per bound, 4");
@@ -268,7 +292,8 @@ TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
   expect_refused([&] { active_set(loose); }, "held by nothing");
 }
 
-// Friction takes part in no infeasibility, and hides none: B u = 0 says u_0 = 0, its hard bound says 0.05.
+// Friction takes part in no infeasibility, and hides none: B u = 0 says u_0 = 0, its hard bound
+// says 0.05.
 TEST(Friction, AnInfeasibleProblemIsRefusedWithFrictionToo) {
   VariationalInequality problem = bar_on_a_floor(4, 0.3);
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(1, 5);

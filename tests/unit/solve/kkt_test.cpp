@@ -37,13 +37,14 @@ TEST(Kkt, SplitResidualIsZeroOfTheSolutionAndTheReactionOnTheClamps) {
 TEST(Kkt, APullIsMeasuredByTheLargestForce) {
   const Solved s(0.1);
   Solution wrong = s.solution;
-  const double largest = std::max(s.problem.load.cwiseAbs().maxCoeff(), s.solution.lambda.cwiseAbs().maxCoeff());
+  const double largest =
+      std::max(s.problem.load.cwiseAbs().maxCoeff(), s.solution.lambda.cwiseAbs().maxCoeff());
   wrong.lambda(held(s.solution)) = -0.1 * largest;
   EXPECT_NEAR(kkt_report(s.problem, wrong).min_pressure, -0.1, 1e-12);
 }
 
-// A string between two clamps, pulled by nothing else: what its middle is out of balance counts in units of the
-// reaction.
+// A string between two clamps, pulled by nothing else: what its middle is out of balance counts in
+// units of the reaction.
 TEST(Kkt, AResidualIsMeasuredByTheReactionWhereNoLoadActs) {
   VariationalInequality problem =
       small_problem(Eigen::Matrix3d{{1, -1, 0}, {-1, 2, -1}, {0, -1, 1}}, Eigen::Vector3d::Zero());
@@ -56,15 +57,17 @@ TEST(Kkt, AResidualIsMeasuredByTheReactionWhereNoLoadActs) {
 
 // u_1 is locked under a load of 1e6, u_0 = 1: the scale of u is 1, however much B bears.
 TEST(Kkt, ALoadThatTheStiffFormBearsIsNoMeasureOfU) {
-  VariationalInequality problem = small_problem(Eigen::Matrix2d::Identity(), Eigen::Vector2d(1, 1e6),
-                                                Eigen::VectorXd::Zero(1), Eigen::RowVector2d(0, 1), 0);
+  VariationalInequality problem =
+      small_problem(Eigen::Matrix2d::Identity(), Eigen::Vector2d(1, 1e6), Eigen::VectorXd::Zero(1),
+                    Eigen::RowVector2d(0, 1), 0);
   Solution s;
   s.u = Eigen::Vector2d(1, 0);
   s.p = Eigen::VectorXd::Constant(1, 1e6);
   s.lambda = Eigen::VectorXd::Zero(1);
   EXPECT_EQ(worst_violation(kkt_report(problem, s)), 0);
   s.u(1) = 1e-3;
-  s.penalised_max_u = 1e3;  // the first iterate was larger: u is what counts, down to a millionth of that
+  s.penalised_max_u =
+      1e3;  // the first iterate was larger: u is what counts, down to a millionth of that
   EXPECT_NEAR(kkt_report(problem, s).residual, 1e-3, 1e-15);
   s.u(1) = 0;
   problem.bounds.lower(0) = 1.001;
@@ -74,7 +77,8 @@ TEST(Kkt, ALoadThatTheStiffFormBearsIsNoMeasureOfU) {
 TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
   for (const double epsilon : {1.0, 1e-2, 0.0}) {
     const Solved s(epsilon);
-    // hold the wrong unknowns by fixing them where the obstacle is: a linear problem whose equations all hold
+    // hold the wrong unknowns by fixing them where the obstacle is: a linear problem whose
+    // equations all hold
     for (const bool one_more : {true, false}) {
       std::vector<bool> active = s.solution.active;
       if (one_more)
@@ -85,10 +89,12 @@ TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
       const SplitResidual r = exact_residual(s.problem, wrong.u, wrong.p, Eigen::VectorXd());
       wrong.lambda = Eigen::VectorXd::Zero(s.problem.bounds.lower.size());
       for (std::size_t i = 0; i < active.size(); ++i)
-        if (active[i]) wrong.lambda(static_cast<Eigen::Index>(i)) = -r.r1(s.problem.bounds.unknowns[i]);
+        if (active[i])
+          wrong.lambda(static_cast<Eigen::Index>(i)) = -r.r1(s.problem.bounds.unknowns[i]);
       wrong.active = active;
       EXPECT_LT(kkt_report(s.problem, wrong).residual, 1e-8);
-      EXPECT_THROW(check_kkt(s.problem, wrong), NotConverged) << "epsilon " << epsilon << ", one more: " << one_more;
+      EXPECT_THROW(check_kkt(s.problem, wrong), NotConverged)
+          << "epsilon " << epsilon << ", one more: " << one_more;
     }
   }
 }

@@ -1,4 +1,5 @@
-// Two factors behind one interface: what each promises, and that both give the same answers over the uniformity table.
+// Two factors behind one interface: what each promises, and that both give the same answers over
+// the uniformity table.
 #include "antilock/solve/sparse_cholesky.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/solve/eigen_cholesky.hpp"
@@ -9,8 +10,9 @@
 
 namespace antilock::test::solve_test::sparse_cholesky_test {
 
-/// The upper triangle of two tridiagonal matrices (2 on the diagonal, -1 beside it; `size` rows each) that share nothing.
-/// Where it `floats`, the second has 1 at both ends of its diagonal: it is held at neither, and singular.
+/// The upper triangle of two tridiagonal matrices (2 on the diagonal, -1 beside it; `size` rows
+/// each) that share nothing. Where it `floats`, the second has 1 at both ends of its diagonal: it
+/// is held at neither, and singular.
 SparseMatrix two_strings(int size, bool floats) {
   SparseMatrix k(2 * size, 2 * size);
   for (int i = 0; i < 2 * size; ++i) {
@@ -23,7 +25,8 @@ SparseMatrix two_strings(int size, bool floats) {
 }
 
 class CholeskyOf : public testing::TestWithParam<CholeskyMaker> {};
-INSTANTIATE_TEST_SUITE_P(BothFactors, CholeskyOf, testing::Values(default_cholesky, eigen_cholesky));
+INSTANTIATE_TEST_SUITE_P(BothFactors, CholeskyOf,
+                         testing::Values(default_cholesky, eigen_cholesky));
 
 TEST_P(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
   const Space space(unstructured_mesh(8), crouzeix_raviart());
@@ -47,11 +50,13 @@ TEST_P(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
     Eigen::MatrixXd schur = full.bottomRightCorner(last, last);
     if (last < size) schur -= test::product(beside.transpose(), Cholesky(inside).solve(beside));
     if (last == 0) continue;
-    EXPECT_LT((test::product(l, l.transpose()) - schur).cwiseAbs().maxCoeff(), 1e-12 * full.cwiseAbs().maxCoeff());
+    EXPECT_LT((test::product(l, l.transpose()) - schur).cwiseAbs().maxCoeff(),
+              1e-12 * full.cwiseAbs().maxCoeff());
   }
 }
 
-// 64 rows: the pivot that is lost is 0 or a few times the round-off of 2; the sign that it comes with is chance.
+// 64 rows: the pivot that is lost is 0 or a few times the round-off of 2; the sign that it comes
+// with is chance.
 TEST_P(CholeskyOf, NamesARowOfThePieceThatFloatsAndRecovers) {
   for (const int last : {0, 3}) {
     const auto factor = GetParam()();
@@ -80,10 +85,12 @@ TEST_P(CholeskyOf, SmallestPivotIsThatOfTheElimination) {
   EXPECT_NEAR(factor->smallest_pivot(), 1e-2, 1e-15);
 }
 
-constexpr double every_epsilon[]{1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-16, 1e-20, 0.0};
+constexpr double every_epsilon[]{1.0,  1e-1,  1e-2,  1e-3,  1e-4,  1e-6,
+                                 1e-8, 1e-10, 1e-12, 1e-16, 1e-20, 0.0};
 
-// The answers of 12 epsilons, 2 elements, 2 meshes and 2 values of 1/h. The tolerance of the corrections is 1e-10; two
-// factors of the same K take the same ones, and so stand much closer to each other than to the solution.
+// The answers of 12 epsilons, 2 elements, 2 meshes and 2 values of 1/h. The tolerance of the
+// corrections is 1e-10; two factors of the same K take the same ones, and so stand much closer to
+// each other than to the solution.
 TEST(TwoFactors, BothFactorsGiveTheSameAnswersOverTheUniformityTable) {
   double worst = 0;
   int answers = 0;
@@ -117,7 +124,8 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOnTheSparseRoad) {
       PenalisedCholesky cholmod(problem, {}, ContactReduction::sparse, default_cholesky);
       PenalisedCholesky eigen(problem, {}, ContactReduction::sparse, eigen_cholesky);
       EXPECT_NE(eigen.sparse_factor(), nullptr);
-      EXPECT_LT(relative_difference(active_set(problem, eigen).u, active_set(problem, cholmod).u), 1e-12)
+      EXPECT_LT(relative_difference(active_set(problem, eigen).u, active_set(problem, cholmod).u),
+                1e-12)
           << method.name();
     }
   }

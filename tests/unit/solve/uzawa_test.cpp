@@ -38,7 +38,8 @@ TEST(Uzawa, WithThePapersLinearSolverAgreesWhereItWorks) {
     for (const double epsilon : {1.0, 1e-1}) {
       const VariationalInequality problem = stiff_problem(space, epsilon, gap());
       const Solution paper = uzawa_cg_ilut(problem);
-      EXPECT_LT(relative_difference(paper.u, active_set(problem).u), 1e-7) << element->name() << epsilon;
+      EXPECT_LT(relative_difference(paper.u, active_set(problem).u), 1e-7)
+          << element->name() << epsilon;
       EXPECT_EQ(static_cast<int>(paper.history.size()), paper.counters.contact_iterations);
       EXPECT_GE(paper.counters.solves, paper.counters.contact_iterations);
     }
@@ -61,7 +62,8 @@ TEST(Uzawa, RefusesAStepThatGoesNowhere) {
 }
 
 TEST(Uzawa, WithThePapersLinearSolverIsRightOrSaysThatItIsNot) {
-  // on meshes that are not aligned ILUT breaks down for small epsilon: an exception, or an answer that holds
+  // on meshes that are not aligned ILUT breaks down for small epsilon: an exception, or an answer
+  // that holds
   for (const auto& [name, mesh] : two_square_meshes(8)) {
     const Space space(mesh, crouzeix_raviart());
     for (const double epsilon : {1e-2, 1e-4, 1e-6, 1e-8, 1e-12}) {
@@ -79,7 +81,8 @@ TEST(Uzawa, WithThePapersLinearSolverIsRightOrSaysThatItIsNot) {
 
 TEST(Uzawa, StopsWhereItIsAccurateEnough) {
   constexpr int cells = 32;
-  const auto stop = [](const std::string& element_name, const TriangleMesh& mesh, const TriangleMesh& coarse) {
+  const auto stop = [](const std::string& element_name, const TriangleMesh& mesh,
+                       const TriangleMesh& coarse) {
     const Space space(mesh, element(element_name));
     for (const double epsilon : {1.0, 1e-2, 1e-6}) {
       const ExactTable exact_solution(ExactSolution(paper_sine_load(), epsilon, true, 14));
@@ -106,8 +109,10 @@ TEST(Uzawa, StopsWhereItIsAccurateEnough) {
 TEST(Uzawa, TheDualityGapBoundsWhatIsLeft) {
   const TriangleMesh mesh = structured_mesh(16);
   for (const UnilateralContact& obstacle : {UnilateralContact{}, gap()}) {
-    // epsilon^2 > penalty: one matrix, no corrections, so that |u - u_h|_a^2 / 2 is below the gap to the last digit
-    const VariationalInequality problem = stiff_problem(Space(mesh, crouzeix_raviart()), 1e-2, obstacle);
+    // epsilon^2 > penalty: one matrix, no corrections, so that |u - u_h|_a^2 / 2 is below the gap
+    // to the last digit
+    const VariationalInequality problem =
+        stiff_problem(Space(mesh, crouzeix_raviart()), 1e-2, obstacle);
     const Eigen::VectorXd exact = active_set(problem).u;
     UzawaOptions options;
     int steps = 0;
@@ -115,8 +120,8 @@ TEST(Uzawa, TheDualityGapBoundsWhatIsLeft) {
       options.stop_at = {energy, 1e-3};
       const Solution s = uzawa(problem, options);
       const Eigen::VectorXd e = s.u - exact, strain = problem.b * e;
-      const double left =
-          0.5 * (e.dot(problem.a1 * e) + strain.dot(problem.m.cwiseProduct(strain)) / problem.compliance);
+      const double left = 0.5 * (e.dot(problem.a1 * e) +
+                                 strain.dot(problem.m.cwiseProduct(strain)) / problem.compliance);
       EXPECT_LE(left, energy);
       EXPECT_GE(s.counters.contact_iterations, steps) << "more asked, more steps";
       steps = s.counters.contact_iterations;
@@ -146,7 +151,8 @@ TEST(Uzawa, TheStepLengthChangesTheCostNotTheAnswer) {
   EXPECT_THROW(uzawa(problem, options), NotConverged);
 }
 
-/// A chain of five springs in units that lie 4 decades apart, so that its compliances lie 8 apart, over an obstacle.
+/// A chain of five springs in units that lie 4 decades apart, so that its compliances lie 8 apart,
+/// over an obstacle.
 VariationalInequality chain_in_units_apart() {
   const Eigen::VectorXd unit{{1, 1e4, 1e-4, 1, 1e2}};
   return small_problem(unit.asDiagonal() * chain(5) * unit.asDiagonal(),
@@ -173,7 +179,8 @@ TEST(Uzawa, StepsFindTheForcesOfEquations) {
 
 /// 2 u = -10 + lambda, u >= -1.
 VariationalInequality one_spring() {
-  return small_problem(Eigen::MatrixXd::Constant(1, 1, 2), Eigen::VectorXd{{-10}}, Eigen::VectorXd{{-1}});
+  return small_problem(Eigen::MatrixXd::Constant(1, 1, 2), Eigen::VectorXd{{-10}},
+                       Eigen::VectorXd{{-1}});
 }
 
 TEST(Uzawa, OneUnknownStopsAtEitherBound) {
@@ -229,8 +236,9 @@ TEST(Uzawa, NeverReturnsAnUnconvergedAnswer) {
   const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 0.1);
   UzawaOptions options;
   options.max_iterations = 5;
-  for (const auto& solve : {+[](const VariationalInequality&p, const UzawaOptions&o) { return uzawa(p, o); },
-                            +[](const VariationalInequality&p, const UzawaOptions&o) { return uzawa_cg_ilut(p, o); }}) {
+  for (const auto& solve :
+       {+[](const VariationalInequality&p, const UzawaOptions&o) { return uzawa(p, o); },
+        +[](const VariationalInequality&p, const UzawaOptions&o) { return uzawa_cg_ilut(p, o); }}) {
     const auto error = thrown<NotConverged>([&] { solve(problem, options); });
     EXPECT_EQ(error.steps, 5);
     EXPECT_GT(error.reached, options.tolerance);
@@ -251,19 +259,23 @@ TEST(Uzawa, WithoutContactIsOneLinearSolve) {
 }
 
 TEST(Uzawa, TheLargestEigenvalueOfAnOperatorIsThatOfItsMatrix) {
-  const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(
-      20, 20, [](Eigen::Index i, Eigen::Index j) { return std::exp(-0.3 * std::abs(static_cast<double>(i - j))); });
+  const Eigen::MatrixXd a =
+      Eigen::MatrixXd::NullaryExpr(20, 20, [](Eigen::Index i, Eigen::Index j) {
+        return std::exp(-0.3 * std::abs(static_cast<double>(i - j)));
+      });
   for (const int size : {1, 2, 3, 20}) {
     const Eigen::MatrixXd part = a.topLeftCorner(size, size);
     const double exact_solution = symmetric_eigenvalues(part).maxCoeff();
-    const double found = largest_eigenvalue([&](const Eigen::VectorXd& x) { return Eigen::VectorXd(part * x); }, size);
+    const double found = largest_eigenvalue(
+        [&](const Eigen::VectorXd& x) { return Eigen::VectorXd(part * x); }, size);
     EXPECT_NEAR(found, exact_solution, 1e-6 * exact_solution) << size;
     EXPECT_LE(found, exact_solution * (1 + 1e-12)) << size;  // from below
   }
 }
 
 TEST(Uzawa, FollowsThePenaltyWhereTheCorrectionsTakeASmallerOne) {
-  // a penalty that is too large for a locked layer: after 15 corrections the factor is made anew, and S with it
+  // a penalty that is too large for a locked layer: after 15 corrections the factor is made anew,
+  // and S with it
   const Space space(unstructured_mesh(8), p1());
   VariationalInequality problem = stiff_problem(space, 1e-6);
   PenalisedCholesky factor(problem, 1e-2);

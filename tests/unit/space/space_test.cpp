@@ -6,12 +6,14 @@
 namespace antilock::test::space_test::space_test {
 
 std::vector<const Element*> elements() {
-  return {&p1(), &p2(), &p3(), &p4(), &lagrange(5), &lagrange(6), &crouzeix_raviart(), &p1_bubble()};
+  return {&p1(),       &p2(), &p3(), &p4(), &lagrange(5), &lagrange(6), &crouzeix_raviart(),
+          &p1_bubble()};
 }
 
 /// Points in and on the triangle, irregular.
 std::vector<Eigen::Vector3d> sample_points() {
-  return {{1, 0, 0}, {0.5, 0.5, 0}, {1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.2, 0.7, 0.1}, {0.05, 0.15, 0.8}, {0, 0.3, 0.7}};
+  return {{1, 0, 0},       {0.5, 0.5, 0},     {1.0 / 3, 1.0 / 3, 1.0 / 3},
+          {0.2, 0.7, 0.1}, {0.05, 0.15, 0.8}, {0, 0.3, 0.7}};
 }
 
 /// Exact in double precision but for a few round-offs of numbers of size 1.
@@ -25,7 +27,8 @@ TEST(Element, BasisIsNodal) {
       EXPECT_NEAR(nodes.row(j).sum(), 1, round_off) << element->name();
       const Eigen::VectorXd phi = element->basis(nodes.row(j));
       const Eigen::VectorXd delta = Eigen::VectorXd::Unit(nodes.rows(), j);
-      EXPECT_LT((phi - delta).cwiseAbs().maxCoeff(), round_off) << element->name() << " at node " << j;
+      EXPECT_LT((phi - delta).cwiseAbs().maxCoeff(), round_off)
+          << element->name() << " at node " << j;
     }
   }
 }
@@ -33,45 +36,53 @@ TEST(Element, BasisIsNodal) {
 TEST(Element, ReproducesPolynomialsOfItsDegree) {
   const auto polynomial = [](const Eigen::RowVector3d& l, int degree) {
     const double linear = 0.3 + 1.7 * l(0) - 2.1 * l(1);
-    return degree == 2 ? linear + 0.9 * l(0) * l(0) - 1.3 * l(0) * l(1) + 0.4 * l(1) * l(1) : linear;
+    return degree == 2 ? linear + 0.9 * l(0) * l(0) - 1.3 * l(0) * l(1) + 0.4 * l(1) * l(1)
+                       : linear;
   };
   for (const Element* element : elements()) {
     const Eigen::MatrixX3d nodes = element->support_points();
     Eigen::VectorXd values(nodes.rows());
-    // degree() is that of the quadrature; unknowns at vertices, or one per edge, hold affine functions alone
+    // degree() is that of the quadrature; unknowns at vertices, or one per edge, hold affine
+    // functions alone
     const int degree = element->conforming() && element->dofs_per_edge() > 0 ? 2 : 1;
     for (Eigen::Index i = 0; i < nodes.rows(); ++i) values(i) = polynomial(nodes.row(i), degree);
     for (const Eigen::Vector3d& at : sample_points()) {
       EXPECT_NEAR(element->basis(at).sum(), 1, round_off) << element->name();
-      EXPECT_NEAR(values.dot(element->basis(at)), polynomial(at.transpose(), degree), round_off) << element->name();
+      EXPECT_NEAR(values.dot(element->basis(at)), polynomial(at.transpose(), degree), round_off)
+          << element->name();
     }
   }
 }
 
 TEST(Element, DerivativeIsTheDerivativeOfTheBasis) {
-  // central differences: round-off / step to degree 2; then step^2 / 6 times the third derivative, below 5,000 to degree 6
+  // central differences: round-off / step to degree 2; then step^2 / 6 times the third derivative,
+  // below 5,000 to degree 6
   constexpr double step = 1e-5;
   for (const Element* element : elements())
     for (const Eigen::Vector3d& at : sample_points()) {
       const Eigen::MatrixX3d d = element->derivative(at);
       for (int j = 0; j < 3; ++j) {
         const Eigen::Vector3d e = Eigen::Vector3d::Unit(j) * step;
-        const Eigen::VectorXd difference = (element->basis(at + e) - element->basis(at - e)) / (2 * step);
-        EXPECT_LT((difference - d.col(j)).cwiseAbs().maxCoeff(), element->degree() <= 2 ? 1e-9 : 1e-7)
+        const Eigen::VectorXd difference =
+            (element->basis(at + e) - element->basis(at - e)) / (2 * step);
+        EXPECT_LT((difference - d.col(j)).cwiseAbs().maxCoeff(),
+                  element->degree() <= 2 ? 1e-9 : 1e-7)
             << element->name();
       }
     }
 }
 
 TEST(Element, ABubbleIsNothingOnTheEdgesAndHasItsMean) {
-  // 27 lambda_0 lambda_1 lambda_2: 1 at the centroid, mean 27 * 2 / 5! = 9/20. Without it the element is P1.
+  // 27 lambda_0 lambda_1 lambda_2: 1 at the centroid, mean 27 * 2 / 5! = 9/20. Without it the
+  // element is P1.
   const Quadrature& rule = triangle_rule(3);
   double mean = 0;
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
     mean += rule.weights(q) * p1_bubble().basis(rule.points.row(q))(3);
   EXPECT_NEAR(mean, 9.0 / 20, round_off);
   for (const Eigen::Vector3d& at : sample_points()) {
-    const Eigen::Vector3d on_edge(0, at(1) / (at(1) + at(2) + 1e-300), at(2) / (at(1) + at(2) + 1e-300));
+    const Eigen::Vector3d on_edge(0, at(1) / (at(1) + at(2) + 1e-300),
+                                  at(2) / (at(1) + at(2) + 1e-300));
     EXPECT_EQ(p1_bubble().basis(on_edge)(3), 0);
     EXPECT_LT((p1_bubble().basis(on_edge).head<3>() - on_edge).norm(), round_off);
     const Eigen::VectorXd phi = p1_bubble().basis(at);
@@ -81,7 +92,8 @@ TEST(Element, ABubbleIsNothingOnTheEdgesAndHasItsMean) {
 
 TEST(Element, IsFoundByNameAndUnknownNamesAreRefused) {
   for (const Element* one : elements()) EXPECT_EQ(&element(one->name()), one);
-  for (const char* name : {"", "p1", "Q1"}) test::expect_refused([&] { element(name); }, "accepted \"P1\"");
+  for (const char* name : {"", "p1", "Q1"})
+    test::expect_refused([&] { element(name); }, "accepted \"P1\"");
   for (int k = 1; k <= 6; ++k) EXPECT_EQ(lagrange(k).degree(), k);
   for (const int k : {0, 7}) test::expect_refused([&] { lagrange(k); }, "accepted; 1 to 6");
 }
@@ -106,7 +118,8 @@ TEST(Space, PointInMapsCornersAndCentroid) {
       ASSERT_EQ(point_in(mesh, t, Eigen::Vector3d::Unit(i)).transpose(), corner);
       mean += corner / 3;
     }
-    ASSERT_LT((point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3)).transpose() - mean).norm(), round_off);
+    ASSERT_LT((point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3)).transpose() - mean).norm(),
+              round_off);
   }
 }
 
@@ -121,8 +134,10 @@ TEST(Space, UnknownsSitWhereTheirElementSays) {
         const int unknown = space.cell_dofs()(t, i);
         met.insert(unknown);
         // neighbours agree on the place, whichever of them looks
-        const Eigen::Vector2d here = point_in(space.mesh(), t, space.element().support_points().row(i));
-        ASSERT_LT((space.dof_coordinates().row(unknown).transpose() - here).norm(), round_off) << space.name;
+        const Eigen::Vector2d here =
+            point_in(space.mesh(), t, space.element().support_points().row(i));
+        ASSERT_LT((space.dof_coordinates().row(unknown).transpose() - here).norm(), round_off)
+            << space.name;
       }
     EXPECT_EQ(static_cast<int>(met.size()), space.size()) << space.name;
   }
@@ -136,7 +151,8 @@ TEST(Space, SharesItsMesh) {
   {
     const Space space(std::move(mesh), p1());
     kept = {space, Space(space, crouzeix_raviart()), Space(space.shared_mesh(), p2())};
-    EXPECT_EQ(&kept.front().dof_coordinates(), &space.dof_coordinates());  // a copy shares its numbering
+    EXPECT_EQ(&kept.front().dof_coordinates(),
+              &space.dof_coordinates());  // a copy shares its numbering
   }
   EXPECT_EQ(kept.front().mesh().vertices.data(), vertices);
   for (const Space& space : kept) {
@@ -154,7 +170,8 @@ TEST(Space, MeshesAreOneWhereTheyAreEqual) {
   tagged.edge_tag.front() = dirichlet_group(0);
   const Space space(mesh, p1());
   EXPECT_TRUE(have_one_mesh(space, Space(mesh, crouzeix_raviart())));  // copied twice
-  for (const TriangleMesh& other : {moved, tagged, structured_mesh(5), structured_mesh(4, {}, Diagonal::left)})
+  for (const TriangleMesh& other :
+       {moved, tagged, structured_mesh(5), structured_mesh(4, {}, Diagonal::left)})
     EXPECT_FALSE(have_one_mesh(space, Space(other, p1())));
 }
 
@@ -162,7 +179,8 @@ TEST(Space, CrouzeixRaviartUnknownsAreEdgeMidpoints) {
   const TriangleMesh mesh = unstructured_mesh(5);
   const Space space(mesh, crouzeix_raviart());
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    const Eigen::RowVector2d middle = 0.5 * (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1)));
+    const Eigen::RowVector2d middle =
+        0.5 * (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1)));
     ASSERT_LT((space.dof_coordinates().row(e) - middle).norm(), round_off);
   }
 }
@@ -208,12 +226,14 @@ TEST(Space, ClampedAndContactUnknownsAreThoseOnTheirEdges) {
       else if (y == -1)
         contact.push_back(i);
     }
-    std::sort(contact.begin(), contact.end(),
-              [&](int a, int b) { return space.dof_coordinates()(a, 0) < space.dof_coordinates()(b, 0); });
+    std::sort(contact.begin(), contact.end(), [&](int a, int b) {
+      return space.dof_coordinates()(a, 0) < space.dof_coordinates()(b, 0);
+    });
     EXPECT_EQ(space.dirichlet_dofs(), clamped) << space.name;
     EXPECT_EQ(space.contact_dofs(), contact) << space.name;
     EXPECT_EQ(space.free_count(), space.size() - static_cast<int>(clamped.size()));
-    const int vertices = space.element().dofs_per_vertex() * 5, midpoints = space.element().dofs_per_edge() * 6;
+    const int vertices = space.element().dofs_per_vertex() * 5,
+              midpoints = space.element().dofs_per_edge() * 6;
     EXPECT_EQ(static_cast<int>(contact.size()), vertices + midpoints) << space.name;
   }
 }

@@ -1,5 +1,5 @@
-// The module study: tables that are asked by name, methods that make their meshes and spaces, sweeps
-// over any problem.
+// The module study: tables that are asked by name, methods that make their meshes and spaces,
+// sweeps over any problem.
 #include "antilock/form/gradient_forms.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/study/method.hpp"
@@ -22,7 +22,8 @@ Table power_laws() {
   return table;
 }
 
-// A CSV that is written reads back to the same doubles, each as short as it can be; a word with a comma is quoted.
+// A CSV that is written reads back to the same doubles, each as short as it can be; a word with a
+// comma is quoted.
 TEST(Table, WritesNumbersThatReadBackToTheSameDoubles) {
   const test::TemporaryFolder folder;
   Table table({"what", "number"});
@@ -31,8 +32,8 @@ TEST(Table, WritesNumbersThatReadBackToTheSameDoubles) {
   table.write(folder / "table.csv");
 
   std::string text = "what,number\n";
-  for (const std::string number :
-       {"0.1", "0.3333333333333333", "1e-300", "-3.141592653589793", "1e-06", "2000000000", "0", "5e-324"})
+  for (const std::string number : {"0.1", "0.3333333333333333", "1e-300", "-3.141592653589793",
+                                   "1e-06", "2000000000", "0", "5e-324"})
     text += "\"Uzawa, \"\"Cholesky\"\"\"," + number + "\n";
   EXPECT_EQ(test::contents(folder / "table.csv"), text);
   for (const double number : table.numbers("number"))
@@ -65,7 +66,8 @@ TEST(Table, FindsTheOrderOfAPowerLaw) {
   EXPECT_NEAR(table.filter("element", "CR").order("error", "cells"), -1, 1e-13);
   // least squares: what is symmetric about the line does not move it
   Table noisy({"x", "y"});
-  for (const auto& [x, y] : {std::pair{1.0, 2.0}, {1.0, 0.5}, {8.0, 128.0}, {8.0, 32.0}}) noisy.add({x, y});
+  for (const auto& [x, y] : {std::pair{1.0, 2.0}, {1.0, 0.5}, {8.0, 128.0}, {8.0, 32.0}})
+    noisy.add({x, y});
   EXPECT_NEAR(noisy.order("y", "x"), 2, 1e-13);
   Table bent({"x", "y"});
   for (const auto& [x, y] : {std::pair{1.0, 1.0}, {2.0, 2.0}, {4.0, 16.0}}) bent.add({x, y});
@@ -96,13 +98,16 @@ TEST(Table, RefusesAndSaysWhat) {
   Table table = power_laws();
   EXPECT_EQ(test::refusal([&] { table.numbers("eror"); }),
             "table: no column 'eror'; accepted: element, epsilon, cells, h, error");
-  EXPECT_EQ(test::refusal([&] {
-              table.add({"P1", 1.0});
-            }),
-            "table: a row of 2 entries; accepted: 5, one per column (element, epsilon, cells, h, error)");
+  EXPECT_EQ(
+      test::refusal([&] {
+        table.add({"P1", 1.0});
+      }),
+      "table: a row of 2 entries; accepted: 5, one per column (element, epsilon, cells, h, error)");
   EXPECT_EQ(table.size(), 16);  // nothing was added
-  EXPECT_EQ(test::refusal([&] { table.numbers("element"); }), "table: 'P1' in column 'element'; accepted: a number");
-  EXPECT_EQ(test::refusal([&] { table.number("error"); }), "table: column 'error' of 16 rows; accepted: of one");
+  EXPECT_EQ(test::refusal([&] { table.numbers("element"); }),
+            "table: 'P1' in column 'element'; accepted: a number");
+  EXPECT_EQ(test::refusal([&] { table.number("error"); }),
+            "table: column 'error' of 16 rows; accepted: of one");
   EXPECT_THROW(table.filter("mesh", "structured"), Error);
   EXPECT_THROW(table.filter_number("element", [](double) { return true; }), Error);
   EXPECT_THROW(table.select({"mesh"}), Error);
@@ -119,17 +124,22 @@ TEST(Method, MakesItsMeshItsSpaceAndItsName) {
   for (const Method& method : methods()) {
     names.push_back(method.name());
     const TriangleMesh mesh = method.mesh(4);
-    EXPECT_EQ(method.space(4).size(), method.element->name() == "P1" ? mesh.vertex_count() : mesh.edge_count());
+    EXPECT_EQ(method.space(4).size(),
+              method.element->name() == "P1" ? mesh.vertex_count() : mesh.edge_count());
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"P1 structured", "P1 unstructured", "CR structured", "CR unstructured"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"P1 structured", "P1 unstructured", "CR structured",
+                                             "CR unstructured"}));
   EXPECT_EQ(structured({0}, Diagonal::crossed).mesh(3).triangle_count(), 36);
-  EXPECT_EQ(methods({&p2()}, {{"jittered", [](int cells) { return jittered_mesh(cells, 0.1); }}}).front().name(),
+  EXPECT_EQ(methods({&p2()}, {{"jittered", [](int cells) { return jittered_mesh(cells, 0.1); }}})
+                .front()
+                .name(),
             "P2 jittered");
 }
 
 /// Solved to 1e-10; the way there differs.
 void expect_same(const Solution& swept, const Solution& alone, double epsilon) {
-  EXPECT_LE((swept.u - alone.u).cwiseAbs().maxCoeff(), 1e-8 * alone.u.cwiseAbs().maxCoeff()) << epsilon;
+  EXPECT_LE((swept.u - alone.u).cwiseAbs().maxCoeff(), 1e-8 * alone.u.cwiseAbs().maxCoeff())
+      << epsilon;
 }
 
 // The beam and rubber are swept as the layer is: one assembly, one factorisation for all small

@@ -1,4 +1,5 @@
-// What the page's script calls. A throw of the library ends the call: the script reads what it says (`page.thrown`).
+// What the page's script calls. A throw of the library ends the call: the script reads what
+// it says (`page.thrown`).
 #include <exception>
 #include <map>
 #include <memory>
@@ -7,7 +8,8 @@
 
 #include "live_figure.hpp"
 
-extern "C" __attribute__((import_module("page"), import_name("thrown"))) void page_thrown(const char* what);
+extern "C" __attribute__((import_module("page"), import_name("thrown"))) void page_thrown(
+    const char* what);
 
 namespace {
 
@@ -17,8 +19,9 @@ struct Made {
   double amount;
   std::unique_ptr<book::LiveFigure> figure;
 };
-std::map<std::tuple<int, int, int>, Made> made;  // by element, kind and cells, with the amount asked for last
-book::LiveFigure* figures[2];                    // of `made`, those that are seen: P1, Crouzeix-Raviart
+std::map<std::tuple<int, int, int>, Made>
+    made;                      // by element, kind and cells, with the amount asked for last
+book::LiveFigure* figures[2];  // of `made`, those that are seen: P1, Crouzeix-Raviart
 std::unique_ptr<book::LiveExact> exact;
 book::LiveNumbers numbers;
 book::RoundOff round_off_numbers;
@@ -27,15 +30,18 @@ std::vector<double> line;
 
 book::LiveFigure& figure_of(int element, int kind, int cells, double amount) {
   Made& one = made[{element, kind, cells}];
-  if (!one.figure || (one.amount != amount && static_cast<book::LiveMesh>(kind) == book::LiveMesh::moved)) {
+  if (!one.figure || (one.amount != amount &&
+                      static_cast<book::LiveMesh>(kind) == book::LiveMesh::moved)) {
     const Element& which = element == 0 ? p1() : crouzeix_raviart();
-    one = {amount, std::make_unique<book::LiveFigure>(static_cast<book::LiveMesh>(kind), cells, amount, which)};
+    one = {amount, std::make_unique<book::LiveFigure>(static_cast<book::LiveMesh>(kind),
+                                                      cells, amount, which)};
   }
   return *one.figure;
 }
 
 const book::LiveExact& exact_at(double epsilon) {
-  if (!exact || exact->epsilon != epsilon) exact = std::make_unique<book::LiveExact>(epsilon);
+  if (!exact || exact->epsilon != epsilon)
+    exact = std::make_unique<book::LiveExact>(epsilon);
   return *exact;
 }
 
@@ -58,10 +64,12 @@ EXPORT(discretise) void discretise(int element, int kind, int cells, double amou
   told([&] { figures[element] = &figure_of(element, kind, cells, amount); });
 }
 /// Makes a mesh that is not seen yet, and its factor, before it is asked for.
-EXPORT(prepare) void prepare(int element, int kind, int cells, double amount, double epsilon) {
+EXPORT(prepare)
+void prepare(int element, int kind, int cells, double amount, double epsilon) {
   told([&] {
     book::LiveFigure& figure = figure_of(element, kind, cells, amount);
-    if (figure.solution().u.size() == 0 && &figure != figures[element]) figure.solve(epsilon, exact_at(epsilon));
+    if (figure.solution().u.size() == 0 && &figure != figures[element])
+      figure.solve(epsilon, exact_at(epsilon));
   });
 }
 /// The members of LiveNumbers in their order.
@@ -70,8 +78,11 @@ EXPORT(solve) const double* solve(int element, double epsilon) {
   return &numbers.largest_on_contact;
 }
 /// Of the last solve: empty, or the sentence of run_scene.
-EXPORT(warning) const char* warning(int element) { return figures[element]->warning().c_str(); }
-/// x, y, u per corner; `size` tells how many numbers there are. The same for the lines below.
+EXPORT(warning) const char* warning(int element) {
+  return figures[element]->warning().c_str();
+}
+/// x, y, u per corner; `size` tells how many numbers there are. The same for the lines
+/// below.
 EXPORT(surface) const float* surface(int element) {
   picture = figures[element]->picture();
   return picture.data();

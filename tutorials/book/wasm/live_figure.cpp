@@ -12,12 +12,16 @@
 namespace antilock::book {
 namespace {
 
-Scene paper_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
+Scene paper_scene(double epsilon) {
+  return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
+}
 
-double largest_error(const Space& space, const Eigen::VectorXd& u, const ExactTable& table) {
+double largest_error(const Space& space, const Eigen::VectorXd& u,
+                     const ExactTable& table) {
   double error = 0;
   for (int i = 0; i < space.size(); ++i)
-    error = std::max(error, std::abs(u(i) - table.value(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))));
+    error = std::max(error, std::abs(u(i) - table.value(space.dof_coordinates()(i, 0),
+                                                        space.dof_coordinates()(i, 1))));
   return error;
 }
 
@@ -46,13 +50,15 @@ LiveNumbers LiveFigure::solve(double epsilon, const LiveExact& exact) {
   solution_ = sweep_.solve();
   LiveNumbers numbers;
   numbers.milliseconds = 1e3 * watch.seconds();
-  warning_ = report_locking(paper_scene(epsilon), {space_, sweep_.problem(), solution_})->warning;
+  warning_ =
+      report_locking(paper_scene(epsilon), {space_, sweep_.problem(), solution_})->warning;
   for (std::size_t i = 0; i < space_.contact_dofs().size(); ++i) {
     const int unknown = space_.contact_dofs()[i];
     numbers.largest_on_contact = std::max(numbers.largest_on_contact, solution_.u(unknown));
     if (!solution_.active[i]) continue;
     ++numbers.touching;
-    numbers.touches_from = std::min(numbers.touches_from, space_.dof_coordinates()(unknown, 0));
+    numbers.touches_from =
+        std::min(numbers.touches_from, space_.dof_coordinates()(unknown, 0));
   }
   numbers.contact = static_cast<double>(space_.contact_dofs().size());
   numbers.ridge = exact.solution.max_on_contact();
@@ -84,14 +90,16 @@ std::vector<double> LiveFigure::trace() const {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < space_.contact_dofs().size(); ++i) {
     const int unknown = space_.contact_dofs()[i];
-    numbers.insert(numbers.end(),
-                   {space_.dof_coordinates()(unknown, 0), solution_.u(unknown), solution_.active[i] ? 1.0 : 0.0});
+    numbers.insert(numbers.end(), {space_.dof_coordinates()(unknown, 0),
+                                   solution_.u(unknown), solution_.active[i] ? 1.0 : 0.0});
   }
   return numbers;
 }
 
 LiveExact::LiveExact(double epsilon)
-    : epsilon(epsilon), solution(paper_sine_load(), epsilon, true, 10), table(solution, 1 << 10) {}
+    : epsilon(epsilon),
+      solution(paper_sine_load(), epsilon, true, 10),
+      table(solution, 1 << 10) {}
 
 std::vector<double> ridge_line(const LiveExact& exact, int points) {
   std::vector<double> numbers;
@@ -108,8 +116,9 @@ RoundOff round_off(int cells, double epsilon, const LiveExact& exact) {
   RoundOff errors;
   errors.split = largest_error(space, active_set(problem).u, exact.table);
   const NaiveResult summed = naive_summed_solve(problem, SummedFactor::cholesky);
-  errors.summed =
-      summed.reason == ConvergedReason::linear_solve_failed ? 1 : largest_error(space, summed.solution.u, exact.table);
+  errors.summed = summed.reason == ConvergedReason::linear_solve_failed
+                      ? 1
+                      : largest_error(space, summed.solution.u, exact.table);
   return errors;
 }
 

@@ -13,7 +13,8 @@ enum class LiveMesh { structured, unstructured, moved, layered };
 /// `amount`: how far the vertices of `moved` go, in units of h; no other mesh reads it.
 TriangleMesh live_mesh(LiveMesh kind, int cells, double amount);
 
-/// What the page writes beside the pictures; everything is dimensionless but the milliseconds.
+/// What the page writes beside the pictures; everything is dimensionless but the
+/// milliseconds.
 struct LiveNumbers {
   double largest_on_contact = 0;  ///< of u_h on Gamma_C
   double ridge = 0;               ///< of the exact u there
@@ -32,7 +33,8 @@ struct LiveExact {
   ExactTable table;
 };
 
-/// One half of the live figure: the paper's problem with one element on one mesh, asked at any epsilon.
+/// One half of the live figure: the paper's problem with one element on one mesh, asked at
+/// any epsilon.
 class LiveFigure {
  public:
   LiveFigure(LiveMesh kind, int cells, double amount, const Element& element);
@@ -41,9 +43,11 @@ class LiveFigure {
   LiveNumbers solve(double epsilon, const LiveExact& exact);
   /// What run_scene would say of the layer of the last solve: empty, or one sentence.
   const std::string& warning() const { return warning_; }
-  /// x, y, u of the three corners of every triangle, in the order of the mesh: 9 numbers per triangle.
+  /// x, y, u of the three corners of every triangle, in the order of the mesh: 9 numbers
+  /// per triangle.
   std::vector<float> picture() const;
-  /// x, u_h and 1 (in contact) or 0 at every unknown of Gamma_C, by x: 3 numbers per unknown.
+  /// x, u_h and 1 (in contact) or 0 at every unknown of Gamma_C, by x: 3 numbers per
+  /// unknown.
   std::vector<double> trace() const;
   const Solution& solution() const { return solution_; }
 
@@ -57,8 +61,8 @@ class LiveFigure {
 /// x and the exact u at `points` places along Gamma_C: 2 numbers per place.
 std::vector<double> ridge_line(const LiveExact& exact, int points);
 
-/// One epsilon of the round-off exhibit (P1, structured): the largest error at the unknowns by the split form, and by
-/// the sum A1 + epsilon^-2 B' M B; 1 where the sum was refused.
+/// One epsilon of the round-off exhibit (P1, structured): the largest error at the unknowns
+/// by the split form, and by the sum A1 + epsilon^-2 B' M B; 1 where the sum was refused.
 struct RoundOff {
   double split = 0, summed = 0;
 };

@@ -1,5 +1,6 @@
-// gmsh's meshes for pages, which have no gmsh. Their names are those under which the library keeps them (mesh/unstructured.cpp):
-// it does so in the folder ANTILOCK_MESHES. Run: tutorials/book/runs.py | ANTILOCK_MESHES=FOLDER page_meshes
+// gmsh's meshes for pages, which have no gmsh. Their names are those under which the
+// library keeps them (mesh/unstructured.cpp): it does so in the folder
+// ANTILOCK_MESHES. Run: tutorials/book/runs.py | ANTILOCK_MESHES=FOLDER page_meshes
 #include <fmt/format.h>
 
 #include <cmath>
@@ -18,7 +19,8 @@ int main() try {
       fmt::print(stderr, "page_meshes: \"{}\" names no mesh\n", line);
       return 2;
     }
-    antilock::unstructured_mesh(static_cast<int>(std::lround(1 / h)), {.layer_depth = depth},
+    antilock::unstructured_mesh(static_cast<int>(std::lround(1 / h)),
+                                {.layer_depth = depth},
                                 static_cast<antilock::Mesher>(mesher));
   }
   return 0;

@@ -1,5 +1,6 @@
-// The programs of tutorials/ in one module: which one runs is the first word of its command line, as on the machine.
-// programs.inc has PROGRAM(first word, chapter, its function) per program (build).
+// The programs of tutorials/ in one module: which one runs is the first word of its command
+// line, as on the machine. programs.inc has PROGRAM(first word, chapter, its function) per
+// program (build).
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -78,7 +78,8 @@ void hold_hat(Eigen::MatrixXd& form, Eigen::VectorXd& force, Eigen::Index hat) {
 
 }  // namespace
 
-RowMatrix correction_space(const Space& space, const InterfaceLine& sigma, const std::vector<char>& in_body) {
+RowMatrix correction_space(const Space& space, const InterfaceLine& sigma,
+                           const std::vector<char>& in_body) {
   const Points& at = space.dof_coordinates();
   const HatRows rows = hat_rows(at, sigma);
   RowMatrix w(at.rows(), hat_count(rows));
@@ -105,7 +106,8 @@ RowMatrix correction_space(const Space& space, const InterfaceLine& sigma, const
 }
 
 CondensedBody condensed_body(const SparseMatrix& form, const Eigen::VectorXd& force,
-                             const std::vector<int>& dirichlet_dofs, const RowMatrix& w, Eigen::Index n) {
+                             const std::vector<int>& dirichlet_dofs, const RowMatrix& w,
+                             Eigen::Index n) {
   CondensedBody body;
   body.held = held_hats(w, dirichlet_dofs);
   Eigen::MatrixXd a = projected_form(form, w);

@@ -14,7 +14,8 @@ namespace antilock {
 /// of an edge of Sigma, and a hat is about as wide as it is high. Between two rows a function is
 /// bilinear. (A correction is nearly harmonic: what varies over a length l on Sigma decays over a
 /// height l.)
-RowMatrix correction_space(const Space& space, const InterfaceLine& sigma, const std::vector<char>& in_body);
+RowMatrix correction_space(const Space& space, const InterfaceLine& sigma,
+                           const std::vector<char>& in_body);
 
 /// The body's part of the comparison as a problem on Sigma alone: min over the hats above Sigma of
 /// w' A w / 2 - F' w, which is d' form d / 2 - force' d plus a constant for the values d of w on
@@ -30,6 +31,7 @@ struct CondensedBody {
 /// the basis of correction_space, `dirichlet_dofs` are the unknowns with prescribed values, and n
 /// is the number of unknowns on Sigma.
 CondensedBody condensed_body(const SparseMatrix& form, const Eigen::VectorXd& force,
-                             const std::vector<int>& dirichlet_dofs, const RowMatrix& w, Eigen::Index n);
+                             const std::vector<int>& dirichlet_dofs, const RowMatrix& w,
+                             Eigen::Index n);
 
 }  // namespace antilock

@@ -80,7 +80,8 @@ EdgeBasis edge_basis(const Element& element, const Eigen::VectorXd& s) {
   std::vector<int> on_edge;  // the basis functions of the edge opposite corner 0, from corner 1
   for (Eigen::Index r = 0; r < nodes.rows(); ++r)
     if (nodes(r, 0) == 0) on_edge.push_back(static_cast<int>(r));
-  std::sort(on_edge.begin(), on_edge.end(), [&](int a, int b) { return nodes(a, 2) < nodes(b, 2); });
+  std::sort(on_edge.begin(), on_edge.end(),
+            [&](int a, int b) { return nodes(a, 2) < nodes(b, 2); });
   const auto size = static_cast<Eigen::Index>(on_edge.size());
   EdgeBasis basis;
   basis.value.resize(s.size(), size);

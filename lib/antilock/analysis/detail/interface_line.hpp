@@ -20,7 +20,9 @@ struct InterfaceLine {
   /// The degree of u_h on an edge. (That of the element may be higher: a bubble is 0 there.)
   int degree() const { return static_cast<int>(edges.front().size()) - 1; }
   double left_end(const std::vector<int>& edge) const { return x(edge.front()); }
-  double edge_length(const std::vector<int>& edge) const { return x(edge.back()) - x(edge.front()); }
+  double edge_length(const std::vector<int>& edge) const {
+    return x(edge.back()) - x(edge.front());
+  }
 };
 
 /// Returns Sigma of a space on a mesh with a layer below y = 0.

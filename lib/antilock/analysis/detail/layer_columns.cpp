@@ -18,14 +18,16 @@ int row_count(const TriangleMesh& mesh, const InterfaceLine& sigma, double epsil
   constexpr int most_rows = 8;
   const int degree = sigma.degree();
   const auto edges = static_cast<int>(sigma.edges.size());
-  const auto in_layer = static_cast<int>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
+  const auto in_layer =
+      static_cast<int>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
   const int of_mesh = std::clamp(degree * in_layer / (2 * edges), 1, most_rows);
   const double square = std::ceil(epsilon * degree * edges / sigma.length - 1e-9);
   return std::clamp(static_cast<int>(square), 1, of_mesh);
 }
 
 /// The matrices in x: a_x, value and weight.
-void add_forms_in_x(LayerColumns& columns, const Element& element, const InterfaceLine& sigma, double s) {
+void add_forms_in_x(LayerColumns& columns, const Element& element, const InterfaceLine& sigma,
+                    double s) {
   const int degree = sigma.degree();
   auto [at, weights] = gauss_rule(degree + 1);
   if (degree == 1) at << 0, 1;
@@ -79,7 +81,8 @@ bool has_corner_on(const InterfaceLine& sigma, const TriangleMesh& mesh, int t) 
 
 }  // namespace
 
-LayerColumns layer_columns(const Space& space, const InterfaceLine& sigma, double epsilon, double s) {
+LayerColumns layer_columns(const Space& space, const InterfaceLine& sigma, double epsilon,
+                           double s) {
   LayerColumns columns;
   columns.rows = row_count(space.mesh(), sigma, epsilon);
   add_forms_in_x(columns, space.element(), sigma, s);
@@ -87,7 +90,8 @@ LayerColumns layer_columns(const Space& space, const InterfaceLine& sigma, doubl
   return columns;
 }
 
-std::vector<ColumnLoad> column_loads(const Space& space, const InterfaceLine& sigma, int rows, const Field& f) {
+std::vector<ColumnLoad> column_loads(const Space& space, const InterfaceLine& sigma, int rows,
+                                     const Field& f) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = load_rule(space.element());
   const std::vector<const std::vector<int>*> right_of = edges_by_place(sigma);
@@ -100,14 +104,15 @@ std::vector<ColumnLoad> column_loads(const Space& space, const InterfaceLine& si
       const double share = (x(0) - sigma.left_end(*edge)) / sigma.edge_length(*edge);
       const EdgeBasis basis = edge_basis(space.element(), Eigen::VectorXd::Constant(1, share));
       const int row = std::min(static_cast<int>(-x(1) * rows), rows - 1);
-      loads.push_back(
-          {edge, row, -x(1) * rows - row, mesh.area(t) * rule.weights(q) * f(x(0), x(1)) * basis.value.row(0)});
+      loads.push_back({edge, row, -x(1) * rows - row,
+                       mesh.area(t) * rule.weights(q) * f(x(0), x(1)) * basis.value.row(0)});
     }
   }
   return loads;
 }
 
-SparseMatrix layer_form_at(const InterfaceLine& sigma, const Space& space, const Eigen::Vector2d& stiffness) {
+SparseMatrix layer_form_at(const InterfaceLine& sigma, const Space& space,
+                           const Eigen::Vector2d& stiffness) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = strain_quadrature(space.element());
   Triplets entries;
@@ -115,11 +120,14 @@ SparseMatrix layer_form_at(const InterfaceLine& sigma, const Space& space, const
     if (mesh.region[t] == Region::body || !has_corner_on(sigma, mesh, t)) continue;
     const auto dofs = space.cell_dofs().row(t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::MatrixX2d gradient = space.element().derivative(rule.points.row(q)) * barycentric_gradients(mesh, t);
-      const Eigen::MatrixXd local =
-          gradient * (rule.weights(q) * mesh.area(t) * stiffness).asDiagonal() * gradient.transpose();
+      const Eigen::MatrixX2d gradient =
+          space.element().derivative(rule.points.row(q)) * barycentric_gradients(mesh, t);
+      const Eigen::MatrixXd local = gradient *
+                                    (rule.weights(q) * mesh.area(t) * stiffness).asDiagonal() *
+                                    gradient.transpose();
       for (Eigen::Index i = 0; i < local.rows(); ++i)
-        for (Eigen::Index j = 0; j < local.cols(); ++j) entries.emplace_back(dofs(i), dofs(j), local(i, j));
+        for (Eigen::Index j = 0; j < local.cols(); ++j)
+          entries.emplace_back(dofs(i), dofs(j), local(i, j));
     }
   }
   return from_triplets<SparseMatrix>(space.size(), space.size(), entries);

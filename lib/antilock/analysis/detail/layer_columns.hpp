@@ -29,7 +29,8 @@ struct LayerColumns {
 };
 
 /// Returns the columns for the layer (stiffness s) that `space` has below Sigma.
-LayerColumns layer_columns(const Space& space, const InterfaceLine& sigma, double epsilon, double s);
+LayerColumns layer_columns(const Space& space, const InterfaceLine& sigma, double epsilon,
+                           double s);
 
 /// The load of the layer at a quadrature point of u_h, as a load on the columns.
 struct ColumnLoad {
@@ -40,11 +41,13 @@ struct ColumnLoad {
 };
 
 /// Returns the load f of the layer at all quadrature points of its triangles.
-std::vector<ColumnLoad> column_loads(const Space& space, const InterfaceLine& sigma, int rows, const Field& f);
+std::vector<ColumnLoad> column_loads(const Space& space, const InterfaceLine& sigma, int rows,
+                                     const Field& f);
 
 /// Returns the part of A1 (N x N) that the layer has in the rows of Sigma. It is summed over the
 /// triangles of the layer with a corner on Sigma: all of these rows' entries. The coefficients of
 /// (d_x v)^2 and (d_y v)^2 are `stiffness`.
-SparseMatrix layer_form_at(const InterfaceLine& sigma, const Space& space, const Eigen::Vector2d& stiffness);
+SparseMatrix layer_form_at(const InterfaceLine& sigma, const Space& space,
+                           const Eigen::Vector2d& stiffness);
 
 }  // namespace antilock

@@ -8,8 +8,8 @@ namespace {
 
 /// Raises `lift` at the ends of an edge so far that it is at least `lack` at s. Both ends that are
 /// free are raised by the same amount.
-void raise_ends(Eigen::VectorXd& lift, const std::vector<int>& edge, const std::vector<char>& held, double s,
-                double lack, double tolerance) {
+void raise_ends(Eigen::VectorXd& lift, const std::vector<int>& edge, const std::vector<char>& held,
+                double s, double lack, double tolerance) {
   const int left = edge.front();
   const int right = edge.back();
   // what the function with the value 1 at the free ends has at s
@@ -33,8 +33,9 @@ void interpolate_between_ends(Eigen::VectorXd& lift, const std::vector<int>& edg
 
 }  // namespace
 
-Eigen::VectorXd lift_above(const InterfaceLine& sigma, const EdgeBasis& basis, const Eigen::VectorXd& v,
-                           const Profile& obstacle, const std::vector<char>& held, double tolerance) {
+Eigen::VectorXd lift_above(const InterfaceLine& sigma, const EdgeBasis& basis,
+                           const Eigen::VectorXd& v, const Profile& obstacle,
+                           const std::vector<char>& held, double tolerance) {
   Eigen::VectorXd lift = Eigen::VectorXd::Zero(v.size());
   const Eigen::Index intervals = basis.value.rows() - 1;
   for (const std::vector<int>& edge : sigma.edges) {
@@ -49,8 +50,9 @@ Eigen::VectorXd lift_above(const InterfaceLine& sigma, const EdgeBasis& basis, c
   return lift;
 }
 
-Eigen::VectorXd lift_into_k(const InterfaceLine& sigma, const EdgeBasis& basis, const Eigen::VectorXd& v,
-                            const UnilateralContact& contact, const std::vector<char>& held, double tolerance) {
+Eigen::VectorXd lift_into_k(const InterfaceLine& sigma, const EdgeBasis& basis,
+                            const Eigen::VectorXd& v, const UnilateralContact& contact,
+                            const std::vector<char>& held, double tolerance) {
   const auto lower = [&](double x) { return -contact.gap(x); };
   Eigen::VectorXd lift = lift_above(sigma, basis, v, lower, held, tolerance);
   if (!contact.upper_obstacle || !lift.allFinite()) return lift;

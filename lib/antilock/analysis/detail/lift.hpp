@@ -14,12 +14,14 @@ namespace antilock {
 /// An end that is `held` (per place) does not move: the other one is lifted by so much more. Where
 /// nothing that can move would lift v, a value is infinite, unless v is at most `tolerance` below
 /// the obstacle there.
-Eigen::VectorXd lift_above(const InterfaceLine& sigma, const EdgeBasis& basis, const Eigen::VectorXd& v,
-                           const Profile& obstacle, const std::vector<char>& held, double tolerance);
+Eigen::VectorXd lift_above(const InterfaceLine& sigma, const EdgeBasis& basis,
+                           const Eigen::VectorXd& v, const Profile& obstacle,
+                           const std::vector<char>& held, double tolerance);
 
 /// Returns the function that moves v between the obstacles of the contact condition, likewise: up
 /// above the lower one, then down below the upper one. A value is infinite where there is no room.
-Eigen::VectorXd lift_into_k(const InterfaceLine& sigma, const EdgeBasis& basis, const Eigen::VectorXd& v,
-                            const UnilateralContact& contact, const std::vector<char>& held, double tolerance);
+Eigen::VectorXd lift_into_k(const InterfaceLine& sigma, const EdgeBasis& basis,
+                            const Eigen::VectorXd& v, const UnilateralContact& contact,
+                            const std::vector<char>& held, double tolerance);
 
 }  // namespace antilock

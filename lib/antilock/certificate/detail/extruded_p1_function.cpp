@@ -9,15 +9,17 @@ ExtrudedP1Function::ExtrudedP1Function(TriangleMesh mesh, Eigen::VectorXd v, Eig
     : mesh_(std::move(mesh)), v_(std::move(v)), p_(std::move(p)) {
   const auto begin = std::find(mesh_.region.begin(), mesh_.region.end(), Region::layer);
   first_ = static_cast<int>(begin - mesh_.region.begin());
-  // extruded() puts the triangles of a column one after the other, from Sigma down: left and right ends of two
-  // triangles tell the next column
+  // extruded() puts the triangles of a column one after the other, from Sigma down: left and right
+  // ends of two triangles tell the next column
   for (int t = first_; t < mesh_.triangle_count(); t += 2) {
-    const double left = mesh_.vertices(mesh_.triangles(t, 0), 0), right = mesh_.vertices(mesh_.triangles(t, 1), 0);
+    const double left = mesh_.vertices(mesh_.triangles(t, 0), 0),
+                 right = mesh_.vertices(mesh_.triangles(t, 1), 0);
     if (columns_.empty() || columns_.back().left != left || columns_.back().right != right)
       columns_.push_back({left, right, t});
   }
   rows_ = (mesh_.triangle_count() - first_) / (2 * static_cast<int>(columns_.size()));
-  std::sort(columns_.begin(), columns_.end(), [](const Column& a, const Column& b) { return a.left < b.left; });
+  std::sort(columns_.begin(), columns_.end(),
+            [](const Column& a, const Column& b) { return a.left < b.left; });
 }
 
 ExtrudedP1Function::Place ExtrudedP1Function::locate(const Eigen::Vector2d& x) const {
@@ -26,7 +28,8 @@ ExtrudedP1Function::Place ExtrudedP1Function::locate(const Eigen::Vector2d& x) c
   if (column != columns_.begin()) --column;
   const double depth = -x(1) * rows_;
   const int row = std::clamp(static_cast<int>(depth), 0, rows_ - 1);
-  const double width = column->right - column->left, s = (x(0) - column->left) / width, t = row + 1 - depth;
+  const double width = column->right - column->left, s = (x(0) - column->left) / width,
+               t = row + 1 - depth;
   return {column->triangle + 2 * row + (t > s ? 1 : 0), width, s,
           t};  // the diagonal / : the first triangle lies below it
 }
@@ -43,7 +46,8 @@ Eigen::Vector2d ExtrudedP1Function::flux_of(int row) const {
   const int triangle = first_ + row;
   const auto corner = mesh_.triangles.row(triangle);
   const int right = 1, left = row % 2 == 0 ? 0 : 2;  // the two corners at one height
-  return {(v_(corner(right)) - v_(corner(left))) / (mesh_.vertices(corner(right), 0) - mesh_.vertices(corner(left), 0)),
+  return {(v_(corner(right)) - v_(corner(left))) /
+              (mesh_.vertices(corner(right), 0) - mesh_.vertices(corner(left), 0)),
           p_(row)};
 }
 
@@ -61,7 +65,8 @@ double ExtrudedP1Function::mean(const Eigen::Vector2d& a, const Eigen::Vector2d&
     const auto [low, high] = std::minmax(a(0), b(0));
     auto column = std::upper_bound(columns_.begin(), columns_.end(), low,
                                    [](double value, const Column& c) { return value < c.left; });
-    for (; column != columns_.end() && column->left < high; ++column) cut((column->left - a(0)) / along(0));
+    for (; column != columns_.end() && column->left < high; ++column)
+      cut((column->left - a(0)) / along(0));
   }
   if (along(1) != 0) {
     const auto [low, high] = std::minmax(a(1), b(1));
@@ -74,7 +79,8 @@ double ExtrudedP1Function::mean(const Eigen::Vector2d& a, const Eigen::Vector2d&
     // inside one cell, where v is affine on both sides of the diagonal s = t
     const double from = cuts[k - 1], to = cuts[k], half = (to - from) / 2, middle = from + half;
     const Place place = locate(a + middle * along);
-    const double off = place.t - place.s, change = half * (along(1) * rows_ - along(0) / place.width);
+    const double off = place.t - place.s,
+                 change = half * (along(1) * rows_ - along(0) / place.width);
     const double crossing = std::abs(off) < std::abs(change) ? middle - off / change * half : to;
     for (const auto& [p, q] : {std::pair(from, crossing), {crossing, to}})
       sum += (q - p) * value(a + (p + q) / 2 * along);

@@ -26,45 +26,56 @@ double penalty_over_all(StiffnessRatio s) {
 
 }  // namespace
 
-DistributedProblem::DistributedProblem(const Scene& scene, const Space& space, PenaltyChoice penalty) : rows_(space) {
+DistributedProblem::DistributedProblem(const Scene& scene, const Space& space,
+                                       PenaltyChoice penalty)
+    : rows_(space) {
   const auto& region = space.mesh().region;
   const long long here = std::count(region.begin(), region.end(), Region::layer), all = sum(here);
-  collectively(
-      [&] {  // a strip without a part of the layer (between the two feet of a body) has the body's part of the forms
-        part_ = assemble(here > 0 || all == 0 ? scene : Scene(scene.body(), NoLayer{}, scene.contact(), scene.edges()),
-                         space);
-        lower_ = Eigen::VectorXd::Constant(rows_.owned(), -std::numeric_limits<double>::infinity());
-        if (!scene.contact()) return;
-        for (int place = 0; place < rows_.owned(); ++place) {
-          if (!rows_.contact(rows_.unknown(place))) continue;
-          const double x = space.dof_coordinates()(rows_.unknown(place), 0), gap = scene.contact()->gap(x);
-          if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
-          lower_(place) = -gap;
-        }
-      });
-  const bool stiff = sum(static_cast<long long>(part_.m.size())) > 0;  // whether any rank has a row of B
+  collectively([&] {  // a strip without a part of the layer (between the two feet of a body) has
+                      // the body's part of the forms
+    part_ = assemble(here > 0 || all == 0
+                         ? scene
+                         : Scene(scene.body(), NoLayer{}, scene.contact(), scene.edges()),
+                     space);
+    lower_ = Eigen::VectorXd::Constant(rows_.owned(), -std::numeric_limits<double>::infinity());
+    if (!scene.contact()) return;
+    for (int place = 0; place < rows_.owned(); ++place) {
+      if (!rows_.contact(rows_.unknown(place))) continue;
+      const double x = space.dof_coordinates()(rows_.unknown(place), 0),
+                   gap = scene.contact()->gap(x);
+      if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
+      lower_(place) = -gap;
+    }
+  });
+  const bool stiff =
+      sum(static_cast<long long>(part_.m.size())) > 0;  // whether any rank has a row of B
   if (stiff) part_.compliance = largest(part_.m.size() > 0 ? part_.compliance : 0);
-  const double rule = penalty_over_all(stiffness_ratio(part_)) /
-                      (penalty == PenaltyChoice::distributed_default ? defaults::penalty_reduction : 1);
-  if (stiff) delta_ = penalty == PenaltyChoice::none ? part_.compliance : std::max(part_.compliance, rule);
-  // B' M B is the layer's y-derivatives: the same form with weight delta^-1 on the layer is A1 + delta^-1 B' M B
+  const double rule =
+      penalty_over_all(stiffness_ratio(part_)) /
+      (penalty == PenaltyChoice::distributed_default ? defaults::penalty_reduction : 1);
+  if (stiff)
+    delta_ = penalty == PenaltyChoice::none ? part_.compliance : std::max(part_.compliance, rule);
+  // B' M B is the layer's y-derivatives: the same form with weight delta^-1 on the layer is A1 +
+  // delta^-1 B' M B
   sum_k(stiff ? gradient_form(space, {1, 1}, {1, 1 / delta_}) : part_.a1);
 }
 
-/// The matrix of all ranks from the parts, in which the clamped unknowns keep their diagonal alone. Each part is
-/// symmetric up to round-off: its columns serve as PETSc's rows.
+/// The matrix of all ranks from the parts, in which the clamped unknowns keep their diagonal alone.
+/// Each part is symmetric up to round-off: its columns serve as PETSc's rows.
 void DistributedProblem::sum_k(SparseMatrix part) {
-  part.prune([&](auto row, auto column, double value) {  // 0: across the long edge of a right angle; 7 entries become 5
+  part.prune([&](auto row, auto column,
+                 double value) {  // 0: across the long edge of a right angle; 7 entries become 5
     return row == column || (value != 0 && !rows_.clamped(row) && !rows_.clamped(column));
   });
   Handle<ISLocalToGlobalMapping, ISLocalToGlobalMappingDestroy> to_rows;
   Matrix own, sum;
   const auto size = static_cast<PetscInt>(part.rows());
-  ok(ISLocalToGlobalMappingCreate(PETSC_COMM_WORLD, 1, size, rows_.row().data(), PETSC_COPY_VALUES, &to_rows));
-  ok(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, size, size, part.outerIndexPtr(), part.innerIndexPtr(), part.valuePtr(),
-                               &own));
-  ok(MatCreateIS(PETSC_COMM_WORLD, 1, rows_.owned(), rows_.owned(), PETSC_DETERMINE, PETSC_DETERMINE, to_rows, to_rows,
-                 &sum));
+  ok(ISLocalToGlobalMappingCreate(PETSC_COMM_WORLD, 1, size, rows_.row().data(), PETSC_COPY_VALUES,
+                                  &to_rows));
+  ok(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, size, size, part.outerIndexPtr(),
+                               part.innerIndexPtr(), part.valuePtr(), &own));
+  ok(MatCreateIS(PETSC_COMM_WORLD, 1, rows_.owned(), rows_.owned(), PETSC_DETERMINE,
+                 PETSC_DETERMINE, to_rows, to_rows, &sum));
   ok(MatISSetLocalMat(sum, own));
   ok(MatAssemblyBegin(sum, MAT_FINAL_ASSEMBLY));
   ok(MatAssemblyEnd(sum, MAT_FINAL_ASSEMBLY));

@@ -38,7 +38,8 @@ class DistributedProblem {
   /// Returns r1 = L - A1 u - B' M p, the part of this rank, which is 0 at the clamped unknowns. u
   /// has a value per unknown of the subdomain, p one per row of B there.
   Eigen::VectorXd equilibrium(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
-    return rows_.unclamped(part_.load - part_.a1 * u - part_.b.transpose() * part_.m.cwiseProduct(p));
+    return rows_.unclamped(part_.load - part_.a1 * u -
+                           part_.b.transpose() * part_.m.cwiseProduct(p));
   }
   /// Returns r2 = compliance p - B u, whose rows belong to one rank each.
   Eigen::VectorXd compatibility(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {

@@ -16,7 +16,8 @@ namespace {
 /// A vector of PETSc that looks at the values of a piece.
 Vector view(const Eigen::VectorXd& values) {
   Vector v;
-  ok(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(values.size()), values.data(), &v));
+  ok(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(values.size()), values.data(),
+                           &v));
   return v;
 }
 
@@ -25,8 +26,11 @@ Vector view(const Eigen::VectorXd& values) {
 DofMap::DofMap(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const int size = space.size();
-  const auto place = [&](int i) { return std::array{space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1)}; };
-  // what ranks share lies on the border of their pieces, at places that are the same to the last bit
+  const auto place = [&](int i) {
+    return std::array{space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1)};
+  };
+  // what ranks share lies on the border of their pieces, at places that are the same to the last
+  // bit
   std::vector<char> on_border(size, 0);
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_triangles(e, 1) >= 0) continue;
@@ -39,10 +43,12 @@ DofMap::DofMap(const Space& space) {
   const auto agreed = [&](Eigen::VectorXd value) {
     std::vector<double> mine;
     for (int i = 0; i < size; ++i)
-      if (on_border[i] != 0 && value(i) >= 0) mine.insert(mine.end(), {place(i)[0], place(i)[1], value(i)});
+      if (on_border[i] != 0 && value(i) >= 0)
+        mine.insert(mine.end(), {place(i)[0], place(i)[1], value(i)});
     const std::vector<double> all = all_gather(mine);
     std::map<std::array<double, 2>, double> first;
-    for (std::size_t k = 0; k < all.size(); k += 3) first.try_emplace({all[k], all[k + 1]}, all[k + 2]);
+    for (std::size_t k = 0; k < all.size(); k += 3)
+      first.try_emplace({all[k], all[k + 1]}, all[k + 2]);
     for (int i = 0; i < size; ++i)
       if (on_border[i] != 0)
         if (const auto found = first.find(place(i)); found != first.end()) value(i) = found->second;
@@ -55,7 +61,8 @@ DofMap::DofMap(const Space& space) {
   };
   const Eigen::VectorXd owner = agreed(Eigen::VectorXd::Constant(size, rank()));
   // a piece may hold a boundary vertex without a boundary edge: another rank knows
-  const Eigen::VectorXd clamped = marked(space.dirichlet_dofs()), contact = marked(space.contact_dofs());
+  const Eigen::VectorXd clamped = marked(space.dirichlet_dofs()),
+                        contact = marked(space.contact_dofs());
   long long solved = 0;
   for (int i = 0; i < size; ++i) {
     clamped_.push_back(clamped(i) > 0 ? 1 : 0);
@@ -67,10 +74,12 @@ DofMap::DofMap(const Space& space) {
   std::sort(unknown_.begin(), unknown_.end(), [&](int i, int j) { return place(i) < place(j); });
   std::vector<long long> start{0};  // what comes before each rank's own
   for (const long long count : all_gather(owned())) start.push_back(start.back() + count);
-  constexpr long long most = std::numeric_limits<PetscInt>::max() / 16;  // 16 entries per row have indices, too
+  constexpr long long most =
+      std::numeric_limits<PetscInt>::max() / 16;  // 16 entries per row have indices, too
   if (start.back() > most)
     throw Error(
-        fmt::format("mesh: {} unknowns; accepted by this build of PETSc (32-bit indices): {}", start.back(), most));
+        fmt::format("mesh: {} unknowns; accepted by this build of PETSc (32-bit indices): {}",
+                    start.back(), most));
   first_ = static_cast<PetscInt>(start[rank()]);
   total_ = sum(solved);
   Eigen::VectorXd row = Eigen::VectorXd::Constant(size, -1);  // a double: exact up to 2^53

@@ -37,7 +37,9 @@ class DofMap {
   /// Returns the same values, but 0 at the clamped unknowns.
   Eigen::VectorXd unclamped(Eigen::VectorXd local) const;
   /// Sets v to the values of this rank at the unknowns that it owns, and to 0 at the clamped ones.
-  void owned_part(const Eigen::VectorXd& local, Vec v) const { Entries{v} = unclamped(local)(unknown_); }
+  void owned_part(const Eigen::VectorXd& local, Vec v) const {
+    Entries{v} = unclamped(local)(unknown_);
+  }
 
  private:
   std::vector<PetscInt> row_;

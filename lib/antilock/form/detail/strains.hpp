@@ -47,7 +47,8 @@ SparseMatrix assemble_strains(int size, int triangles, Local&& local) {
   for (int t = 0; t < triangles; ++t) {
     const auto [unknown, matrix] = local(t);
     for (Eigen::Index i = 0; i < unknown.size(); ++i)
-      for (Eigen::Index j = 0; j < unknown.size(); ++j) entries.emplace_back(unknown(i), unknown(j), matrix(i, j));
+      for (Eigen::Index j = 0; j < unknown.size(); ++j)
+        entries.emplace_back(unknown(i), unknown(j), matrix(i, j));
   }
   return from_triplets<SparseMatrix>(size, size, entries);
 }

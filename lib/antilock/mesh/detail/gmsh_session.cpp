@@ -39,10 +39,10 @@ void* gmsh_library() {
     return loaded;
   }();
   if (library == nullptr)
-    throw MeshError(
-        fmt::format("mesh: gmsh cannot be loaded ({}); an unstructured or layered mesh needs it (Debian: "
-                    "libgmsh-dev), a structured mesh or a mesh file does not",
-                    why));
+    throw MeshError(fmt::format(
+        "mesh: gmsh cannot be loaded ({}); an unstructured or layered mesh needs it (Debian: "
+        "libgmsh-dev), a structured mesh or a mesh file does not",
+        why));
   return library;
 }
 
@@ -52,7 +52,8 @@ std::mutex& one_session() {
   return mutex;
 }
 
-/// Numbers of this thread are read and written with a decimal point, whatever the locale of the process is.
+/// Numbers of this thread are read and written with a decimal point, whatever the locale of the
+/// process is.
 locale_t use_decimal_points() {
   static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
   return ::uselocale(plain);
@@ -79,10 +80,10 @@ class Variable {
 };
 
 /// While it exists, gmsh may do to the process what its initialisation does: it takes the locale of
-/// the environment for the whole process and adds its folder to PYTHONPATH. Both are put back at the
-/// end. gmsh and FLTK find no home: in it FLTK would write .fltk/fltk.org/fltk.prefs, and the end of
-/// a session would remove .gmsh-tmp. FLTK 1.3 also writes /etc/fltk where it may, which only root
-/// may; no option prevents it.
+/// the environment for the whole process and adds its folder to PYTHONPATH. Both are put back at
+/// the end. gmsh and FLTK find no home: in it FLTK would write .fltk/fltk.org/fltk.prefs, and the
+/// end of a session would remove .gmsh-tmp. FLTK 1.3 also writes /etc/fltk where it may, which only
+/// root may; no option prevents it.
 class Unchanged {
  public:
   Unchanged() { ::setenv("HOME", "/dev/null", /*overwrite*/ 1); }
@@ -102,7 +103,9 @@ void try_call(const char* name, Arguments... arguments) {
   reinterpret_cast<Function*>(dlsym(gmsh_library(), name))(arguments..., &ignored);
 }
 
-void free_by_gmsh(void* memory) { reinterpret_cast<decltype(gmshFree)*>(dlsym(gmsh_library(), "gmshFree"))(memory); }
+void free_by_gmsh(void* memory) {
+  reinterpret_cast<decltype(gmshFree)*>(dlsym(gmsh_library(), "gmshFree"))(memory);
+}
 
 /// What gmsh allocated, as a vector; gmsh's own memory is freed.
 template <class Number>
@@ -116,7 +119,8 @@ std::vector<Number> taken(Number* first, std::size_t count) {
 
 void* GmshSession::symbol(const char* name) {
   void* const found = dlsym(gmsh_library(), name);
-  if (found == nullptr) throw MeshError(fmt::format("mesh: {} has no function {}", ANTILOCK_GMSH_LIBRARY, name));
+  if (found == nullptr)
+    throw MeshError(fmt::format("mesh: {} has no function {}", ANTILOCK_GMSH_LIBRARY, name));
   return found;
 }
 
@@ -124,7 +128,8 @@ void GmshSession::check(int failed, const char* name) const {
   if (failed == 0) return;
   char* message = nullptr;
   int ignored = 0;
-  reinterpret_cast<decltype(gmshLoggerGetLastError)*>(symbol("gmshLoggerGetLastError"))(&message, &ignored);
+  reinterpret_cast<decltype(gmshLoggerGetLastError)*>(symbol("gmshLoggerGetLastError"))(&message,
+                                                                                        &ignored);
   const std::string said = message == nullptr ? "" : message;
   if (message != nullptr) free_by_gmsh(message);
   throw MeshError(fmt::format("mesh: gmsh failed in {}{}{}", name, said.empty() ? "" : ": ", said));
@@ -158,7 +163,8 @@ GmshSession::~GmshSession() {
   try_call<decltype(gmshModelRemove)>("gmshModelRemove");
   try_call<decltype(gmshModelSetCurrent)>("gmshModelSetCurrent", callers_model_->c_str());
   for (auto option = callers_options_.rbegin(); option != callers_options_.rend(); ++option)
-    try_call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", option->first.c_str(), option->second);
+    try_call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", option->first.c_str(),
+                                            option->second);
 }
 
 std::optional<std::string> GmshSession::current_model() {
@@ -172,8 +178,8 @@ std::optional<std::string> GmshSession::current_model() {
   } else {
     constexpr double untouched = -1;  // no mesh algorithm has this number
     double algorithm = untouched;
-    reinterpret_cast<decltype(gmshOptionGetNumber)*>(symbol("gmshOptionGetNumber"))("Mesh.Algorithm", &algorithm,
-                                                                                    &failed);
+    reinterpret_cast<decltype(gmshOptionGetNumber)*>(symbol("gmshOptionGetNumber"))(
+        "Mesh.Algorithm", &algorithm, &failed);
     if (failed != 0 || algorithm == untouched) return std::nullopt;
   }
   char* name = nullptr;
@@ -196,7 +202,8 @@ void GmshSession::keep_geometry_options() {
     const std::string option = "Geometry." + name;
     int unknown = 0;  // to an older gmsh
     double before = 0;
-    reinterpret_cast<decltype(gmshOptionGetNumber)*>(symbol("gmshOptionGetNumber"))(option.c_str(), &before, &unknown);
+    reinterpret_cast<decltype(gmshOptionGetNumber)*>(symbol("gmshOptionGetNumber"))(
+        option.c_str(), &before, &unknown);
     if (unknown == 0) callers_options_.emplace_back(option, before);
   }
 }
@@ -210,7 +217,8 @@ int GmshSession::add_line(int from, int to) const {
 }
 
 void GmshSession::add_surface(std::array<int, 4> lines) const {
-  int loop = call<decltype(gmshModelGeoAddCurveLoop)>("gmshModelGeoAddCurveLoop", lines.data(), lines.size(), -1, 0);
+  int loop = call<decltype(gmshModelGeoAddCurveLoop)>("gmshModelGeoAddCurveLoop", lines.data(),
+                                                      lines.size(), -1, 0);
   call<decltype(gmshModelGeoAddPlaneSurface)>("gmshModelGeoAddPlaneSurface", &loop, 1, -1);
 }
 
@@ -219,37 +227,45 @@ std::pair<Points, Triples> GmshSession::generate() const {
   call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
   std::size_t *tags = nullptr, *elements = nullptr, *nodes = nullptr;
   double *coordinates = nullptr, *parameters = nullptr;
-  std::size_t tag_count = 0, coordinate_count = 0, parameter_count = 0, element_count = 0, node_count = 0;
-  call<decltype(gmshModelMeshGetNodes)>("gmshModelMeshGetNodes", &tags, &tag_count, &coordinates, &coordinate_count,
-                                        &parameters, &parameter_count, /*dim: all*/ -1, -1, 0, 0);
+  std::size_t tag_count = 0, coordinate_count = 0, parameter_count = 0, element_count = 0,
+              node_count = 0;
+  call<decltype(gmshModelMeshGetNodes)>("gmshModelMeshGetNodes", &tags, &tag_count, &coordinates,
+                                        &coordinate_count, &parameters, &parameter_count,
+                                        /*dim: all*/ -1, -1, 0, 0);
   if (parameters != nullptr) free_by_gmsh(parameters);
   constexpr int of_three_nodes = 2;
-  call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", of_three_nodes, &elements,
-                                                 &element_count, &nodes, &node_count, /*tag: all*/ -1, /*task*/ 0,
+  call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", of_three_nodes,
+                                                 &elements, &element_count, &nodes, &node_count,
+                                                 /*tag: all*/ -1, /*task*/ 0,
                                                  /*numTasks*/ 1);
   free_by_gmsh(elements);
   const std::vector<double> xyz = taken(coordinates, coordinate_count);
   const std::vector<std::size_t> corners = taken(nodes, node_count);
   std::unordered_map<std::size_t, int> number;
-  for (const std::size_t tag : taken(tags, tag_count)) number.emplace(tag, static_cast<int>(number.size()));
+  for (const std::size_t tag : taken(tags, tag_count))
+    number.emplace(tag, static_cast<int>(number.size()));
   std::pair<Points, Triples> made{Points(number.size(), 2), Triples(corners.size() / 3, 3)};
-  for (Eigen::Index v = 0; v < made.first.rows(); ++v) made.first.row(v) << xyz[3 * v], xyz[3 * v + 1];
-  std::transform(corners.begin(), corners.end(), made.second.data(), [&](std::size_t tag) { return number.at(tag); });
+  for (Eigen::Index v = 0; v < made.first.rows(); ++v)
+    made.first.row(v) << xyz[3 * v], xyz[3 * v + 1];
+  std::transform(corners.begin(), corners.end(), made.second.data(),
+                 [&](std::size_t tag) { return number.at(tag); });
   return made;
 }
 
-// gmshMerge tells the kind of a file by its name and its first line, and executes NAME.opt beside a file NAME, whatever
-// its kind. So it is given nothing but the checked script, in a file that has no folder; a .brep file goes to
-// OpenCASCADE, which knows no other kind.
+// gmshMerge tells the kind of a file by its name and its first line, and executes NAME.opt beside a
+// file NAME, whatever its kind. So it is given nothing but the checked script, in a file that has
+// no folder; a .brep file goes to OpenCASCADE, which knows no other kind.
 void GmshSession::read(const Geometry& geometry) {
   if (geometry.script.empty()) {
     int* shapes = nullptr;
     std::size_t count = 0;
-    call<decltype(gmshModelOccImportShapes)>("gmshModelOccImportShapes", geometry.file.c_str(), &shapes, &count,
+    call<decltype(gmshModelOccImportShapes)>("gmshModelOccImportShapes", geometry.file.c_str(),
+                                             &shapes, &count,
                                              /*highestDimOnly*/ 0, "brep");
     free_by_gmsh(shapes);
     if (count == 0)
-      throw Error(fmt::format("{}: OpenCASCADE finds no shape in it; accepted: a .brep file", geometry.file));
+      throw Error(fmt::format("{}: OpenCASCADE finds no shape in it; accepted: a .brep file",
+                              geometry.file));
     call<decltype(gmshModelOccSynchronize)>("gmshModelOccSynchronize");
     return;
   }
@@ -258,7 +274,8 @@ void GmshSession::read(const Geometry& geometry) {
   try {
     call<decltype(gmshMerge)>("gmshMerge", script.path().c_str());
   } catch (const MeshError& error) {
-    // gmsh's scanner keeps the rest of the line at fault, and would put it before the next script: it is read off here
+    // gmsh's scanner keeps the rest of the line at fault, and would put it before the next script:
+    // it is read off here
     set("General.AbortOnError", 0);
     call<decltype(gmshMerge)>("gmshMerge", MemoryFile("\n").path().c_str());
     call<decltype(gmshMerge)>("gmshMerge", MemoryFile(std::string(afresh) + "\n").path().c_str());
@@ -283,8 +300,9 @@ std::vector<int> GmshSession::read_curves(const Geometry& geometry) {
 std::vector<double> GmshSession::nearest(int curve, std::vector<double> xyz) const {
   double *points = nullptr, *parameters = nullptr;
   std::size_t point_count = 0, parameter_count = 0;
-  call<decltype(gmshModelGetClosestPoint)>("gmshModelGetClosestPoint", 1, curve, xyz.data(), xyz.size(), &points,
-                                           &point_count, &parameters, &parameter_count);
+  call<decltype(gmshModelGetClosestPoint)>("gmshModelGetClosestPoint", 1, curve, xyz.data(),
+                                           xyz.size(), &points, &point_count, &parameters,
+                                           &parameter_count);
   free_by_gmsh(parameters);
   return taken(points, point_count);
 }

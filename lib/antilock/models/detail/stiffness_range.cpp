@@ -17,12 +17,14 @@ void StiffnessRange::note(double stiffness) {
 void StiffnessRange::check(const char* what) const {
   if (stiffest_ > 1e16 * softest_)
     throw Error(
-        fmt::format("{}: stiffnesses from {:.3g} to {:.3g}, which double precision does not hold together; accepted: a "
+        fmt::format("{}: stiffnesses from {:.3g} to {:.3g}, which double precision does not hold "
+                    "together; accepted: a "
                     "stiffest one of at most 1e16 times the softest",
                     what, softest_, stiffest_));
 }
 
-void StiffnessRange::append(VariationalInequality& problem, const WeightedFactoredForm& rows) const {
+void StiffnessRange::append(VariationalInequality& problem,
+                            const WeightedFactoredForm& rows) const {
   append_rows(problem, rows.form.b, unit_ * rows.form.m, unit_ * rows.stiffness.cwiseInverse());
 }
 

@@ -27,26 +27,34 @@ namespace antilock {
 class SlackForm {
  public:
   SlackForm(const VariationalInequality& problem, double delta) : problem_(problem) {
-    if (problem.bounds.constraints.rows() > 0) introduce_slacks(slack_problem_.emplace(problem), delta);
+    if (problem.bounds.constraints.rows() > 0)
+      introduce_slacks(slack_problem_.emplace(problem), delta);
   }
-  const VariationalInequality& operator*() const { return slack_problem_ ? *slack_problem_ : problem_; }
+  const VariationalInequality& operator*() const {
+    return slack_problem_ ? *slack_problem_ : problem_;
+  }
   const VariationalInequality* operator->() const { return &**this; }
   /// Returns C forces in the units of the constraints of the problem itself.
   Eigen::VectorXd forces(Eigen::VectorXd lambda) const { return scaled(std::move(lambda), scale_); }
 
  private:
   void introduce_slacks(VariationalInequality& problem, double delta) {
-    const Eigen::Index n = problem.size(), rows = problem.b.rows(), slacks = problem.bounds.constraints.rows();
+    const Eigen::Index n = problem.size(), rows = problem.b.rows(),
+                       slacks = problem.bounds.constraints.rows();
     Eigen::VectorXd stiffness = problem.a1.diagonal();
     stiffness += problem.b.cwiseAbs2().transpose() * problem.m / delta;
-    for (const int i : problem.dirichlet_dofs) stiffness(i) = std::numeric_limits<double>::infinity();
-    for (Eigen::Index j = 0; j < n; ++j)  // the equality row would hide it from the factor but for round-off
+    for (const int i : problem.dirichlet_dofs)
+      stiffness(i) = std::numeric_limits<double>::infinity();
+    for (Eigen::Index j = 0; j < n;
+         ++j)  // the equality row would hide it from the factor but for round-off
       if (!(stiffness(j) > 0))
         throw Error(
-            fmt::format("solve: unknown {} is held by nothing: A1 and B' M B are 0 there; accepted: a matrix A1 + "
+            fmt::format("solve: unknown {} is held by nothing: A1 and B' M B are 0 there; "
+                        "accepted: a matrix A1 + "
                         "B' M B that is positive definite on the free unknowns",
                         j));
-    problem.fixed_compliances.conservativeResizeLike(Eigen::VectorXd::Zero(problem.fixed_compliances.size() + slacks));
+    problem.fixed_compliances.conservativeResizeLike(
+        Eigen::VectorXd::Zero(problem.fixed_compliances.size() + slacks));
     problem.bounds.constraints.resize(0, 0);
     problem.a1.conservativeResize(n + slacks, n + slacks);
     problem.a1.makeCompressed();
@@ -70,7 +78,8 @@ class SlackForm {
     problem.b.makeCompressed();
     problem.bounds.lower = scaled(std::move(problem.bounds.lower), scale_);
     problem.bounds.upper = scaled(std::move(problem.bounds.upper), scale_);
-    problem.bounds.force_limit = scaled(std::move(problem.bounds.force_limit), scale_.cwiseInverse());
+    problem.bounds.force_limit =
+        scaled(std::move(problem.bounds.force_limit), scale_.cwiseInverse());
   }
 
   static Eigen::VectorXd scaled(Eigen::VectorXd bound, const Eigen::VectorXd& scale) {

@@ -1,4 +1,5 @@
-// core/atomic_file.cpp in a page: one program, no signals, no other process. Files are written in their places.
+// core/atomic_file.cpp in a page: one program, no signals, no other process. Files are
+// written in their places.
 #include "antilock/core/atomic_file.hpp"
 
 #include <fstream>
