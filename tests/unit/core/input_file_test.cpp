@@ -48,7 +48,8 @@ TEST(InputFile, ThatMayNeverEndIsRefused) {
 // Reading /proc/kmsg waits for the next message of the kernel.
 TEST(InputFile, OfTheKernelIsEmpty) {
   EXPECT_EQ(text_of("/proc/self/status"), "");
-  if (std::filesystem::exists("/proc/kmsg")) EXPECT_EQ(text_of("/proc/kmsg"), "");
+  if (!std::filesystem::exists("/proc/kmsg")) return;  // a container may hide it
+  EXPECT_EQ(text_of("/proc/kmsg"), "");
 }
 
 }  // namespace antilock::test::core_test::input_file_test
