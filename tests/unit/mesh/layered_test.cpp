@@ -144,9 +144,11 @@ TEST(ExtrudedLayer, AlongNormalsIsRefusedWhereThereIsNoSuchLayer) {
   expect_refused([&] { extruded(ring, 1, true); }, "meets itself");
   TriangleMesh slot =
       test::submesh(8, [](double x, double y) { return y < 0.25 || y > 0.5 || x < 0.25; });
-  for (int e = 0; e < slot.edge_count(); ++e)
-    if (slot.edge_triangles(e, 1) < 0 && (slot.vertices(slot.edges.row(e), 1).array() == 0.5).all())
-      slot.edge_tag[e] = EdgeTag::contact;
+  for (int e = 0; e < slot.edge_count(); ++e) {
+    const Eigen::Vector2d heights = slot.vertices(slot.edges.row(e), 1);
+    const bool level = heights(0) == 0.5 && heights(1) == 0.5;
+    if (slot.edge_triangles(e, 1) < 0 && level) slot.edge_tag[e] = EdgeTag::contact;
+  }
   expect_refused([&] { extruded(slot, 0.1, true); }, "every x once");
   turned.vertices = -ring.vertices;
   expect_refused([&] { extruded(turned, 0.1, true); }, "the body is not above its contact edge");
