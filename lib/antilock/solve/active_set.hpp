@@ -24,8 +24,9 @@ struct CorrectionOptions {
   /// round-off.
   double contact_tolerance = 0;
 
-  /// Returns the KKT violation above which no solution is returned, max(KktTolerances::fail, 10
-  /// tolerance): a u with an error of the tolerance violates the KKT conditions by about as much.
+  /// Returns the KKT violation above which no solution is returned: max(KktTolerances::fail, 10
+  /// tolerance). It grows with the tolerance, because a u whose error is equal to the tolerance
+  /// violates the KKT conditions by about as much.
   double kkt_fail() const { return std::max(KktTolerances{}.fail, 10 * tolerance); }
 };
 
@@ -37,7 +38,9 @@ struct ActiveSetOptions {
   ContactReduction reduction = ContactReduction::automatic;  ///< not used if a factor is given
   /// The largest number of contact iterations in one correction; NotConverged beyond.
   int max_contact_iterations = 1000;
-  std::optional<BoundStatuses> start;  ///< C statuses; empty: the nested start
+  /// C statuses from which the first correction starts; empty: the nested start. Each later
+  /// correction starts from the statuses of the one before.
+  std::optional<BoundStatuses> start;
 };
 
 /// Solves a discrete variational inequality. It receives matrices and no mesh, so it cannot know
@@ -69,16 +72,18 @@ struct ActiveSetOptions {
 /// (measured: tests/hard), and at compliance 0 the method solves (7) of [SR04] without a penalty
 /// error (problem/variational_inequality.hpp).
 ///
-/// Once the contact set stays the same, each correction multiplies the error of a mode with
-/// a0 = sigma a1, sigma > 0, by (delta - compliance) / (delta + sigma) < 1. So these modes converge
-/// for every delta, and fast where delta is small beside sigma. Anderson's mixing (anderson.hpp)
-/// accelerates the slow ones, and after every defaults::corrections_per_penalty corrections delta
-/// is divided by defaults::penalty_reduction, but stays at least the compliance.
+/// Let a0(e, v) = sigma a1(e, v) for all v, sigma > 0. Once the contact set stays the same, each
+/// correction multiplies the part of the error along such a mode e by (delta - compliance) /
+/// (delta + sigma) < 1. So these modes converge for every delta, and fast where delta is small
+/// beside sigma. Anderson's mixing (anderson.hpp) accelerates the slow ones. After every
+/// defaults::corrections_per_penalty corrections delta is divided by defaults::penalty_reduction.
+/// It stays at least the compliance, and at least defaults::round_off times the stiffness ratio
+/// (problem/choose_penalty.hpp).
 ///
 /// Constraints c . u are solved for in slack form (detail/slack_form.hpp). Without bounds each
 /// correction is one linear solve. Counters::contact_iterations is the largest number of iterations
-/// of one correction, those of the nested start not included. Throws Error for a malformed problem
-/// or option, and NotConverged in place of a solution that has not converged.
+/// of one correction, without those of the nested start. Throws Error for a malformed problem or
+/// option, and NotConverged in place of a solution that has not converged.
 ///
 /// Reading order: problem/variational_inequality.hpp, bound_status.hpp, contact.hpp, residual.hpp,
 /// this header, forward_error.hpp. The constants and their reasons are in defaults.hpp. The outer
@@ -87,15 +92,16 @@ struct ActiveSetOptions {
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options = {});
 
 /// Does the same with a factor that exists already, for a sweep over loads, bounds or compliances
-/// with one pair (A1, B). Throws Error for a factor of other matrices.
+/// with one pair (A1, B). The factor is computed anew if its delta is below the compliance, and the
+/// corrections may leave it with a smaller delta. Throws Error for a factor of other matrices.
 Solution active_set(const VariationalInequality& problem, PenalisedCholesky& factor,
                     const ActiveSetOptions& options = {});
 
 /// Solves the contact problem of one correction, in which v is an increment to the current iterate.
-/// The forces of `before` and of the result are total forces: ShiftedBounds holds those of the
-/// current iterate as a multiplier estimate. The factor determines whether the system is a
-/// SchurComplementContact or a SparseContact. `before` is the result of the last correction, and is
-/// empty in the first one. `u_scale` is the largest |u|.
+/// The forces of `before` and of the result are total forces, and not increments: they contain the
+/// forces of the current iterate, which are the multiplier estimate of the ShiftedBounds. The
+/// factor determines whether the system is a SchurComplementContact or a SparseContact. `before` is
+/// the result of the last correction, and is empty in the first one. `u_scale` is the largest |u|.
 using ContactSolver = std::function<ContactResult(ContactSystem&, const ShiftedBounds&,
                                                   const ContactResult& before, double u_scale)>;
 

@@ -15,11 +15,10 @@ namespace antilock {
 /// GMRES (H. F. Walker and P. Ni, SIAM J. Numer. Anal. 49, 2011).
 ///
 /// Mixing leaves the iteration matrix T of plain steps unchanged: near the solution a plain step
-/// multiplies the error of x by T, whatever the start. So a plain step after a mix still reduces
-/// the error at least by the contraction of plain steps. The measured contraction misses a slow
-/// mode whose component is small in all starts of the history. Where the steps g are round-off, the
-/// weights of a mix are arbitrary. This does no harm while all vectors of the history are near the
-/// solution.
+/// multiplies the error of x by T, whatever the start. So the contraction of plain steps also holds
+/// for the plain step that follows a mix. The measured contraction misses a slow mode whose
+/// component is small in all starts of the history. Where the steps g are round-off, the weights of
+/// a mix are arbitrary. This does no harm while all vectors of the history are near the solution.
 class Anderson {
  public:
   /// The number of iterates that are kept. With 6 iterates a mix can eliminate five slow modes. Two
@@ -50,17 +49,19 @@ class Anderson {
   }
 
   /// Estimates the change of the affine image by the next step: |g| of the last step times the
-  /// gain. The gain is the largest ratio, over pairs of the history, of the distance of two affine
-  /// images in the maximum norm to the distance of their starts. It is 0 before two starts are
-  /// known. (The last step of the affine image itself is no estimate: it contains the round-off
-  /// that a mix leaves in a start. A difference of two images does not contain it.)
+  /// gain. The last entry of the history is compared with each one before it: the distance of their
+  /// affine images in the maximum norm is divided by the distance of their starts. The gain is the
+  /// largest of these quotients. It is 0 before two starts are known. (The last step of the affine
+  /// image itself is no estimate: it contains the round-off that a mix leaves in a start. A
+  /// difference of two images does not contain it.)
   double next_affine_image_step() const { return past_.empty() ? 0 : gain_ * past_[0].g.norm(); }
 
-  /// Estimates the contraction of a plain step: the largest ratio, over the last start and each one
-  /// before it, of the distance of the iterates to the distance of the starts. It lies between 1 -
-  /// defaults::max_contraction and defaults::max_contraction, and is the latter while there is only
-  /// one start. It is valid for any starts. (The ratio of two steps |g| is not: a mix makes g
-  /// smaller, but not the error by the same factor.)
+  /// Estimates the contraction of a plain step. The last entry of the history is compared with each
+  /// one before it: the distance of their iterates is divided by the distance of their starts. The
+  /// largest of these quotients is the estimate. It is clamped to the range from 1 -
+  /// defaults::max_contraction to defaults::max_contraction, and is the latter while there is only
+  /// one start. It is valid for any starts. (The ratio of two steps |g| is no estimate after a mix:
+  /// a mix makes g smaller, but does not reduce the error by the same factor.)
   double contraction() const { return contraction_; }
 
   /// Replaces `iterate` by the mix of the history, the next start, and `affine_image` by the mix
@@ -86,8 +87,8 @@ class Anderson {
     }
   }
 
-  /// Forgets the history, as is needed after a change of the iteration itself (another contact
-  /// set).
+  /// Forgets the history. This is needed after a change of the iteration itself: another contact
+  /// set, or another penalty.
   void restart() { past_.clear(); }
   /// Forgets the oldest entry of the history.
   void forget_the_oldest() {

@@ -39,9 +39,10 @@ inline bool is_active(BoundStatus status) {
   return status == BoundStatus::at_lower || status == BoundStatus::at_upper;
 }
 
-/// C bounds with their set-valued laws, for the increments that a correction solves for: the limits
-/// are those of the increment of v, and `multiplier_estimate` shifts the forces. A lower bound, two
-/// bounds, an equation and Tresca's friction differ only in the statuses that exist.
+/// C bounds with their set-valued laws, in the form that a correction needs. A correction solves
+/// for an increment of v, so the limits are those of this increment. `multiplier_estimate` is
+/// subtracted from the forces. A lower bound, two bounds, an equation and Tresca's friction differ
+/// only in the statuses that exist.
 struct ShiftedBounds : BoundLimits {
   /// C: the multipliers lambda that the earlier corrections have found. prescribed() and
   /// admissible_range() describe lambda - multiplier_estimate.
@@ -103,7 +104,8 @@ struct ShiftedBounds : BoundLimits {
   /// Returns the status of bound i that follows `status` towards larger values of v, or smaller
   /// ones where `up` is false. Throws Error where there is none.
   BoundStatus next(int i, BoundStatus status, bool up) const {
-    // v grows and lambda falls: a range without an end on that side belongs to the last status
+    // From status to status v grows and lambda falls. If the range of `status` has no end in this
+    // direction, no status follows.
     const auto [low, high] = admissible_range(i, status);
     if (!std::isfinite(is_active(status) == up ? low : high))
       throw Error(

@@ -77,10 +77,11 @@ struct ContactResult {
 ///   there, and its bound becomes active.
 ///
 /// The length of the step. Breakpoints are the fractions of the step at which values meet the ends
-/// of their ranges. The full step is tried first, then the step up to the breakpoint at which half
-/// of the violated values have stopped, then a quarter and so on, until J is lower than at the
-/// first breakpoint. The last choice is the first breakpoint itself. The comparison is cheap,
-/// because all these points are in the face, and J(v) = Q(v) = Q(w) + (v - w)' K (v - w) / 2 there.
+/// of their ranges. The full step is tried first. If J is not lower there than at the first
+/// breakpoint, the step ends where half of the values with a breakpoint have stopped, then where a
+/// quarter have, and so on, until J is lower. The last choice is the first breakpoint itself. The
+/// comparison is cheap, because all these points are in the face, and J(v) = Q(v) = Q(w) + (v - w)'
+/// K (v - w) / 2 there.
 ///
 /// Claim. In exact arithmetic the iteration ends with the minimiser, whatever the start.
 ///
@@ -131,10 +132,10 @@ struct ContactResult {
 /// minimiser satisfies these conditions. End of the proof.
 ///
 /// In floating-point arithmetic a force counts as outside of its range only if it is outside by
-/// more than its round-off. If the same statuses occur at two releases, round-off is the reason.
-/// The iteration then returns their minimiser, and the KKT report (kkt.hpp) checks it. (The
-/// projection is that of D. P. Bertsekas, SIAM J. Control Optim. 20, 1982. The release is that of
-/// J. J. More and G. Toraldo, SIAM J. Optim. 1, 1991.)
+/// more than its round-off. Values have no such tolerance. If the same statuses occur at two
+/// releases, round-off is the reason. The iteration then returns their minimiser, and the KKT
+/// report (kkt.hpp) checks it. (The projection is that of D. P. Bertsekas, SIAM J. Control Optim.
+/// 20, 1982. The release is that of J. J. More and G. Toraldo, SIAM J. Optim. 1, 1991.)
 ///
 /// `start` has C statuses. Without it the iteration starts from ContactSystem::nested_start. Throws
 /// NotConverged after max_iterations linear systems, and Error where K is not positive definite.
@@ -142,9 +143,10 @@ ContactResult solve_contact(ContactSystem& system, const ShiftedBounds& bounds,
                             const std::optional<BoundStatuses>& start, int max_iterations);
 
 /// Returns C statuses to start from. `coarse` is the same problem with only every second bound (1,
-/// 3, 5, ...), and its solution gives the statuses of these bounds. Each of the other bounds takes
-/// the status of its two neighbours in the order of the bounds if they agree, and is inactive
-/// otherwise. Throws as solve_contact does.
+/// 3, 5, ...), and its solution gives the statuses of these bounds. Each bound of `coarse` has its
+/// own force limit and half of that of each of its two neighbours, which are left out. Each of the
+/// other bounds takes the status of its two neighbours in the order of the bounds if they agree,
+/// and is inactive otherwise. Throws as solve_contact does.
 BoundStatuses coarse_start(const ShiftedBounds& bounds, ContactSystem& coarse, int max_iterations);
 
 }  // namespace antilock

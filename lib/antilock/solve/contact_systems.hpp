@@ -17,9 +17,10 @@ class SchurComplementContact final : public ContactSystem {
   /// Solves the problem in which only every second unknown is bounded, recursively down to one
   /// bound, and transfers the statuses (coarse_start). With it the number of iterations hardly
   /// depends on the mesh width. The unknowns whose bounds are left out become free and are
-  /// condensed out, so that S is exact for energies of any order. The matrix P' S P, where P
-  /// interpolates linearly between every second unknown, would be far too stiff for a beam, because
-  /// interpolated functions have kinks and the bending energy of a kink is infinite.
+  /// condensed out. So the S of the smaller problem is exact, also for a bending energy. The matrix
+  /// P' S P, where P interpolates linearly between every second unknown, would be far too stiff for
+  /// a beam, because interpolated functions have kinks and the bending energy of a kink is
+  /// infinite.
   BoundStatuses nested_start(const ShiftedBounds& bounds, int max_iterations) override;
 
   const Eigen::MatrixXd& s() const { return s_; }
@@ -45,13 +46,13 @@ class SparseContact final : public ContactSystem {
   /// Coarsens K by smoothed aggregation (P. Vanek, J. Mandel, M. Brezina, Computing 56, 1996),
   /// solves the contact problem of the coarse matrix P' K P by the same method, and gives each
   /// bound the status of the aggregates on which its unknown depends, if these agree. Otherwise the
-  /// bound is inactive. It needs no mesh. An active set that is too small costs less than one that
-  /// is too large: missing active bounds are added within one or two iterations, excess ones are
-  /// released one row of cells per iteration. (With 65,025 bounds the iteration takes 7 steps from
-  /// this start, and 30 without the smoothing; measured.) Aggregation supposes that constant
-  /// functions have no energy. Constant rotations of beams and plates have energy. For such a
-  /// matrix the start is the solution with only every second bound (coarse_start). This is right
-  /// for every K, but each of its iterations factors the whole K.
+  /// bound is inactive, because an active set that is too small costs less than one that is too
+  /// large: missing bounds are added within one or two iterations, but excess bounds are released
+  /// one row of cells per iteration. No mesh is needed. (With 65,025 bounds the iteration takes 7
+  /// steps from this start, and 30 without the smoothing; measured.) Aggregation supposes that
+  /// constant functions have no energy. Constant rotations of beams and plates have energy. For
+  /// such a matrix the start is the solution with only every second bound (coarse_start). This is
+  /// right for every K, but each of its iterations factors the whole K.
   BoundStatuses nested_start(const ShiftedBounds& bounds, int max_iterations) override;
 
  private:

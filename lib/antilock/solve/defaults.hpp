@@ -9,12 +9,12 @@ namespace antilock::defaults {
 /// The distance from 1 to the next double, 2.2e-16.
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// The relative round-off of a sum: a sum of n rounded terms loses about sqrt(n) eps of them, and
-/// 64 eps serves rows of 4096 entries. It is used three times. First, a force is known up to
-/// round_off times the sum of the absolute values of its terms. Second, a pivot below round_off
-/// times its diagonal entry is round-off (sound problems stay above 1e-12, on meshes and layers of
-/// every kind tried). Third, with a penalty below round_off times the stiffness ratio of B' M B and
-/// A1, a factor keeps fewer than two digits of A1.
+/// The relative round-off of a sum: the rounding of n terms changes their sum by about sqrt(n) eps
+/// times their size, so 64 eps is enough for rows of 4096 entries. It is used three times. First, a
+/// force is known up to round_off times the sum of the absolute values of its terms. Second, a
+/// pivot below round_off times its diagonal entry is round-off (sound problems stay above 1e-12, on
+/// meshes and layers of every kind tried). Third, with a penalty below round_off times the
+/// stiffness ratio of B' M B and A1, a factor keeps fewer than two digits of A1.
 constexpr double round_off = 64 * eps;
 
 /// The relative difference that rounding leaves between two rows of B that are equal in exact

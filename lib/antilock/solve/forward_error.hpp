@@ -70,9 +70,10 @@ struct ConstraintDefect {
   /// it. A row of compliance c > 0 has an additional unknown with the coefficient sqrt(c / m),
   /// which regularises the least squares problem (Tikhonov).
   double displacement = 0;
-  /// R: the part of B u = -r2 in the rows of compliance 0 that no step removes. It is the y of an
-  /// infeasibility certificate (S. Boyd and L. Vandenberghe, Convex Optimization, 5.8): B' y = 0
-  /// where u is neither prescribed nor at an active bound.
+  /// R: the part of the residual -r2 that no step removes. It is 0 in the rows of positive
+  /// compliance. In the others -r2 is B u. It is the y of an infeasibility certificate (S. Boyd and
+  /// L. Vandenberghe, Convex Optimization, 5.8): B' y = 0 where u is neither prescribed nor at an
+  /// active bound.
   DoubleDoubleVector infeasible_part;
 };
 
@@ -88,10 +89,11 @@ ConstraintDefect constraint_defect(const VariationalInequality& problem,
 
 /// Adds two errors of u to result.error, which is absolute here. Neither of them changes the size
 /// of the corrections, so the estimate from the corrections does not contain them. The first one is
-/// the round-off of forces p that are too large for 106 bits. If this error is above 1e-9 U
-/// (kkt.hpp defines U), result.warning is set and the second error is not computed. The second one
-/// is the constraint defect of nearly dependent rows of B. If it is above 1e-9 U, result.warning is
-/// set as well. Throws NotConverged where the defect proves that no u of this size is admissible.
+/// the effect on u of the round-off of the forces B' M p, which 106 bits leave. It counts where p
+/// is large. If this error is above 1e-9 U (kkt.hpp defines U), result.warning is set and the
+/// second error is not computed. The second one is the constraint defect of nearly dependent rows
+/// of B. If it is above 1e-9 U, result.warning is set as well. Throws NotConverged where the defect
+/// proves that no u of this size is admissible.
 void add_conditioning_error(const VariationalInequality& problem, const PenalisedCholesky& factor,
                             const Eigen::VectorXd& constraint_residual, Solution& result);
 

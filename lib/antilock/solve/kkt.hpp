@@ -58,8 +58,8 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
 
 /// Levels of the worst violation of a report. A solution above `warn` carries a warning. No solver
 /// returns a solution above max(fail, 10 tolerance) (CorrectionOptions::kkt_fail), except for
-/// naive_summed_solve, which checks nothing. Solutions are normally more accurate than both levels:
-/// warn is ten times the default tolerance of the corrections.
+/// naive_summed_solve, which checks nothing. The worst violation of a solution is normally below
+/// both levels, because `warn` is ten times the default tolerance of the corrections.
 struct KktTolerances {
   double warn = 1e-9;
   double fail = 1e-6;

@@ -49,9 +49,9 @@ class PenalisedCholesky {
 
   /// Returns the penalty of the parametric rows, or 0 where the last refactor() has failed.
   double delta() const { return delta_; }
-  /// Returns the penalty of each row of B of the problem in slack form: delta, and for a fixed
-  /// compliance c > 0 the larger of c and defaults::fixed_row_penalty_ratio times min(delta,
-  /// choose_penalty).
+  /// Returns the penalty of each row of B of the problem in slack form. It is delta, except for the
+  /// rows with a fixed compliance c > 0. There it is the larger one of c and
+  /// defaults::fixed_row_penalty_ratio min(delta, choose_penalty(problem)).
   const Eigen::VectorXd& penalties() const { return penalties_; }
   const DofOrdering& ordering() const { return ordering_; }
   /// Returns the smallest pivot of K: an upper bound, and a heuristic estimate, of its smallest

@@ -54,9 +54,9 @@ inline SparseMatrix penalised_matrix(const VariationalInequality& problem,
   std::vector<int> touched;
   std::vector<double> sum(size, 0.0);
   std::vector<char> seen(size, 0);
-  // Gustavson's algorithm: one column of the sum at a time, in a dense accumulator. (Assembly from
-  // triplets takes ten times as long at 1/h = 256, an eighth of the time of a solution, because it
-  // moves more memory.)
+  // Gustavson's algorithm: one column of the sum at a time, in a dense accumulator. (At 1/h = 256
+  // assembly from triplets takes ten times as long, because it moves more memory. That would be an
+  // eighth of the time of a solution.)
   for (int column = 0; column < size; ++column) {
     const int j = ordering.dof[column];
     const auto add = [&](Eigen::Index dof, double value) {

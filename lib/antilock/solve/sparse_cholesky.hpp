@@ -20,8 +20,8 @@ class SparseCholesky {
   virtual void analyse(const SparseMatrix& k, int trailing_count) = 0;
 
   /// Computes L for a matrix of the analysed pattern. Returns nothing where K is positive definite.
-  /// Otherwise it returns the row of K of a pivot l_ii^2 that is not positive, or at most
-  /// defaults::round_off times the diagonal entry k_ii, because such a pivot is round-off. Throws
+  /// Otherwise it returns a row of K with a useless pivot: l_ii^2 is not positive, or it is
+  /// round-off, that is, at most defaults::round_off times the diagonal entry k_ii. Throws
   /// NotConverged where memory runs out.
   virtual std::optional<int> factorise(const SparseMatrix& k) = 0;
 

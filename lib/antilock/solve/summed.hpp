@@ -15,9 +15,9 @@ struct SummedSystem {
   Eigen::VectorXd u;            ///< N: the prescribed values, 0 elsewhere
 };
 
-/// Assembles the system. Throws Error at compliance = 0 where B has rows, since K does not exist,
-/// for rows of B with fixed compliances, and for bounds other than lower bounds on unknowns. The
-/// message begins with `who` and recommends the solver `instead`.
+/// Assembles the system. Throws Error for rows of B with fixed compliances, and for bounds other
+/// than lower bounds on unknowns. Throws Error also at compliance = 0 where B has rows, because K
+/// does not exist then. The message begins with `who` and recommends the solver `instead`.
 SummedSystem summed_system(const VariationalInequality& problem, const std::string& who,
                            const char* instead);
 
@@ -47,11 +47,11 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
                                int max_iterations = 100);
 
 /// Solves by the algorithm and the linear solver of [SR04], Section 4.2 (cited in
-/// problem/variational_inequality.hpp): Uzawa's method, whose every step runs conjugate gradients
-/// on K with an ILUT preconditioner. Throws NotConverged where ILUT breaks down, as it does for
-/// small epsilon on meshes that are not aligned with the layer, and where an iteration does not
-/// converge. Throws Error as summed_system does and for options.stop_at, which needs the condensed
-/// matrix.
+/// problem/variational_inequality.hpp): Uzawa's method, in which each step solves with K by
+/// conjugate gradients and an ILUT preconditioner. Throws NotConverged where ILUT breaks down, as
+/// it does for small epsilon on meshes that are not aligned with the layer, and where an iteration
+/// does not converge. Throws Error as summed_system does and for options.stop_at, which needs the
+/// condensed matrix.
 Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options = {});
 
 }  // namespace antilock
