@@ -41,7 +41,8 @@ struct LoopReport {
   /// The largest |du| of the last correction, relative to the largest |u|.
   double change = 0;
   double seconds_setup = 0, seconds_solve = 0;
-  /// Seconds of work of the processor of this rank; on a shared machine less than the elapsed time.
+  /// The processor time of this rank in seconds. On a shared machine it is less than the elapsed
+  /// time.
   double processor = 0;
 };
 
@@ -51,10 +52,13 @@ struct LoopReport {
 ///     (A1 + delta^-1 B' M B) du = r1 + delta^-1 B' M r2  off the contact set,
 ///                            du = bound - u              on it
 ///
-/// is solved by conjugate gradients with multigrid, on the contact set that the last correction
-/// proposes. (A1, B, M, r1, r2 and delta are those of detail/distributed_problem.hpp.) Multigrid is
-/// set up again if the set has changed. The old hierarchy would need up to four times as many
-/// iterations, because a released point frees a whole column of the layer.
+/// is solved by conjugate gradients with multigrid, to a relative accuracy of 1e-4. The first
+/// contact set is that of the start. Then a point stays in the set where the bound presses on it
+/// (r1 < 0), and enters it where u is below the bound. The loop ends where the set has not changed,
+/// and `tolerance` and `residual` are met. (A1, B, M, r1, r2 and delta are those of
+/// detail/distributed_problem.hpp.) Multigrid is set up again if the set has changed. The old
+/// hierarchy would need up to four times as many iterations, because a released point frees a whole
+/// column of the layer.
 ///
 /// The error of a start from a coarser level consists of short waves. A few smoothing steps remove
 /// them, so that the contact set is then nearly right and multigrid is set up only once. Residuals

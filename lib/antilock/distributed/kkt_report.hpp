@@ -12,9 +12,9 @@ Eigen::VectorXd contact_forces(const DistributedProblem& problem, const State& s
 /// same on every rank. Every rank must call it.
 Kkt kkt_report(const DistributedProblem& problem, const State& state);
 
-/// Returns this report. Throws NotConverged, on every rank, where the worst violation is above
-/// max(KktTolerances::fail, 10 tolerance). `warning` is empty, or says how far the violation is
-/// above KktTolerances::warn.
+/// Returns the result of kkt_report. Throws NotConverged, on every rank, where the worst violation
+/// is above max(KktTolerances::fail, 10 tolerance). `warning` is empty, or says how far the
+/// violation is above KktTolerances::warn.
 Kkt certified(const DistributedProblem& problem, const State& state, double tolerance,
               std::string& warning);
 

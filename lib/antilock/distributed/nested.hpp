@@ -63,10 +63,10 @@ struct NestedReport {
 
 /// Refines `coarse` and solves a scene on every level. The mesh is cut into strips. The contact
 /// loop of a level starts from the solution of the level before. No rank ever holds more of the
-/// fine mesh than its own strip. Every rank must call it, with the same coarse mesh. Throws the
-/// same exception on every rank: Error where the coarse mesh cannot be distributed or does not fit
-/// the scene, where a load or a gap is not finite, and where the element is neither P1 nor
-/// Crouzeix-Raviart, and NotConverged.
+/// fine mesh than its own strip. Every rank must call it, with the same coarse mesh. Throws Error
+/// where the coarse mesh cannot be distributed or does not fit the scene, where a load or a gap is
+/// not finite, and where the element is neither P1 nor Crouzeix-Raviart. Throws as contact_loop
+/// does. Every rank throws the same exception.
 std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse,
                                           const Element& element, const NestedOptions& options,
                                           NestedReport& report);

@@ -17,9 +17,9 @@ std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks, bool any_l
 /// coarse mesh.
 TriangleMesh subdomain_of(const TriangleMesh& coarse, const std::vector<int>& rank_of, int rank);
 
-/// Returns the mesh with every triangle cut into four by its edge midpoints, triangle t into 4 t
-/// ... 4 t + 3, as mesh/refine.hpp does, but without a check. Both sides of an edge between two
-/// ranks compute the same new vertex, to the last bit.
+/// Returns the mesh with every triangle cut into four by its edge midpoints. Triangle t becomes 4 t
+/// ... 4 t + 3, as in mesh/refine.hpp, but the result is not checked. Both sides of an edge between
+/// two ranks compute the same new vertex, to the last bit.
 TriangleMesh refined_subdomain(const TriangleMesh& subdomain);
 
 }  // namespace antilock::distributed

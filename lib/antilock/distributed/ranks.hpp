@@ -6,9 +6,10 @@
 namespace antilock::distributed {
 
 /// Initialises MPI and PETSc, and finalises them at the end of its scope. A program may have only
-/// one. PETSc's own reports on standard error are off: a failure is an exception. The options of
-/// BoomerAMG are those that were the best here (measured). The environment variable PETSC_OPTIONS
-/// overrides them. PETSc's files of options (.petscrc, petscrc and ~/.petscrc) are not read.
+/// one. PETSc's own reports on standard error are off, because each failure is reported by an
+/// exception. The options of BoomerAMG are those that were the best here (measured). The
+/// environment variable PETSC_OPTIONS overrides them. PETSc's files of options (.petscrc, petscrc
+/// and ~/.petscrc) are not read.
 class Session {
  public:
   Session();
