@@ -17,7 +17,7 @@ namespace antilock {
 struct AccuracyGoal {
   double relative;  ///< in (0, 1)
   /// The quantity whose error is bounded. The midpoint of the two fluxes (Quantity::stress) needs a
-  /// quarter of the unknowns.
+  /// quarter of the unknowns that the displacement needs.
   Quantity of = Quantity::displacement;
   double most_unknowns = 2e6;  ///< of Crouzeix-Raviart on the last mesh
   /// Empty: extrude for epsilon <= 0.1 (with P1 and P2 only where the first mesh has columns), else
@@ -58,8 +58,9 @@ struct CertifiedSolution {
 /// algebraic residual is at most a tenth of the constitutive error (Certificate). `first` is the
 /// first mesh, of any body. Where the layer is extruded, a mesh of only the body suffices. The
 /// Ventcel layer is solved as the scaled one with epsilon = 0. Refined triangles have the shapes of
-/// the first mesh. From gmsh's mesh with 1/h = 8 they need 6 % more unknowns than a fine mesh of
-/// gmsh, and from that with 1/h = 16 they need 1 % more. `progress` is called after every level.
+/// those of the first mesh. This costs unknowns: a refinement of gmsh's mesh with 1/h = 8 needs 6 %
+/// more unknowns than a fine mesh of gmsh, and a refinement of that with 1/h = 16 needs 1 % more.
+/// `progress` is called after every level.
 ///
 /// A P1 result is the conforming companion itself, because it is in K also between the vertices.
 /// The flux comes from a Crouzeix-Raviart solution on the same mesh. The bound of a P2 result is
