@@ -15,7 +15,7 @@ struct Hypotheses {
   /// functions that are 0 in the layer. So its size alone does not diagnose locking; locking.hpp
   /// does.
   int kernel = 0;
-  int free = 0;  ///< free unknowns; B v = 0 are free - kernel independent conditions
+  int free = 0;  ///< free unknowns; B v = 0 means free - kernel independent conditions
   /// The distance of the admissible set K_h from G_h (distance_to_kernel). The theorems need a
   /// common element of both.
   double distance = 0;

@@ -32,19 +32,18 @@ enum class Verdict { locks_completely, locks, locks_in_part, not_detected };
 /// kernel.hpp). This dimension is compared on a mesh and on a finer one:
 /// - If it is 0 on the finer mesh, the bounded unknowns tend to 0 as compliance -> 0 (Proposition
 ///   1: u_h tends to a function of G_h). This is proved.
-/// - If it is not larger on the finer mesh, some load locks, for this reason: K_0, the functions of
-///   the admissible set K with B v = 0, has infinitely many independent traces, and m + 1 of them
-///   cannot all be limits of functions whose traces have the dimension m. This is proved if the
-///   number stays m on all meshes.
+/// - If it is not larger on the finer mesh, some load locks. This is proved if the dimension is the
+///   same number m on all meshes: K_0, the set of all v in the admissible set K with B v = 0, has
+///   infinitely many independent traces, and m + 1 of them cannot all be limits of functions whose
+///   traces have the dimension m.
 /// - If it grows by less than 19/20 of the number of additional bounds, a part of the boundary
 ///   cannot move. (Example: the layer is cut into columns under one half of the boundary, and its
 ///   triangles are connected under the other half. The dimension grows, but the other half locks.)
 /// - If it grows by more, the flexibilities are compared. Refinement makes the bounded unknowns
 ///   more flexible. If this effect is larger at a small compliance than at the compliance where
-///   both forms are equally stiff, the stiffness depends on the mesh. This criterion is observed,
-///   not proved. (Example: P1 for nearly incompressible plane strain with free sides, on a mesh
-///   with parallel diagonals. There the dimension grows by one per additional bound, and the method
-///   locks.)
+///   both forms are equally stiff, the method locks. This criterion is observed, not proved.
+///   (Example: P1 for nearly incompressible plane strain with free sides, on a mesh with parallel
+///   diagonals. There the dimension grows by one per additional bound, and the method locks.)
 /// - Otherwise no locking for this reason is detected. This is necessary for uniform convergence,
 ///   but not sufficient: the traces must also approximate those of K_0 (Theorem 4).
 ///
@@ -52,7 +51,8 @@ enum class Verdict { locks_completely, locks, locks_in_part, not_detected };
 struct LockingDiagnosis {
   int coarse = 0, fine = 0;                ///< dimensions of the trace on the bounds
   int coarse_bounds = 0, fine_bounds = 0;  ///< bounded unknowns of the stiff part
-  /// Whether a stiff unknown is bounded. If none is, all stiff unknowns count as bounded.
+  /// Whether a stiff unknown is bounded. If none is, all stiff unknowns count as bounded, and
+  /// locking in part is not diagnosed.
   bool bounded = true;
   /// r(compliance) / r(c) - 1. Here r is the quotient of two flexibilities, that on the finer mesh
   /// and that on the coarser one. The flexibility is the mean displacement of the bounded unknowns
@@ -60,8 +60,9 @@ struct LockingDiagnosis {
   /// about as stiff (StiffnessRatio, rounded to a decade). It is evaluated at `compliance`, or at
   /// 1e-6 c if `compliance` is 0.
   double refinement_softening = 0;
-  /// The largest compliance that locks: the first of 1e-1 c, 1e-2 c, ..., 1e-6 c at which
-  /// `refinement_softening` is above `significance` and above |r(c) - 1|. It is 0 if there is none.
+  /// The largest compliance at which the flexibilities show locking: the first of 1e-1 c, 1e-2 c,
+  /// ..., 1e-6 c at which `refinement_softening` is above `significance` and above |r(c) - 1|. It
+  /// is 0 if there is none.
   double compliance = 0;
 
   Verdict verdict() const;

@@ -31,13 +31,13 @@ namespace antilock {
 ///   In the body v_0 = u_h + w, with the w that minimises J for these values on Sigma.
 ///
 /// Load and stiffness are evaluated at the quadrature points of u_h, so that quadrature errors
-/// cancel in the difference. The loss is not the gain of a finer mesh. A layer with few rows is
-/// coarse, but it does not lock because of this. Therefore v has at most as many rows in the layer
-/// as the mesh. (Measured at epsilon = 1 in the layer below a bridge, a body on two feet: halving
-/// the height of the rows gains 18 to 30 %, and no loss is reported.) Where a gap oscillates over a
-/// few edges, the loss depends on the points at which u_h meets the gap. (Example, measured: for a
-/// gap with 4.6 edges per wave a loss of 9 % is reported. But P1 on a mesh of columns, which has
-/// other contact points, gains only 3 %.)
+/// cancel in the difference. The loss does not contain what a finer mesh would gain. A layer with
+/// few rows is coarse, but it does not lock because of this. Therefore v has at most as many rows
+/// in the layer as the mesh. (Measured at epsilon = 1 in the layer below a bridge, a body on two
+/// feet: halving the height of the rows gains 18 to 30 %, and no loss is reported.) Where a gap
+/// oscillates over a few edges, the loss depends on the points at which u_h meets the gap.
+/// (Example, measured: for a gap with 4.6 edges per wave a loss of 9 % is reported. But P1 on a
+/// mesh of columns, which has other contact points, gains only 3 %.)
 struct LockingLoss {
   double estimate = 0;  ///< J(u_h) - J(v), negative where v is the worse of the two
   /// J(u_h) - J(v'), a lower bound of J(u_h) - J(u) up to round-off. It is -infinity if there is no
@@ -46,7 +46,9 @@ struct LockingLoss {
   /// The energy that the motion of the layer releases: the larger one of J(v_0) - J(v) and |v -
   /// v_0|_a^2 / 2 (energy norm). If v_0 satisfies the bounds of v, the first is at least the
   /// second, because v minimises J. If v_0 violates them, J(v_0) may be lower than J(v), and the
-  /// second is a positive measure of the motion. It is 0 if it is not above round-off.
+  /// second is a positive measure of the motion. It is set to 0 if it is below its round-off
+  /// divided by `significance` (locking.hpp), because the round-off alone would then be a share
+  /// that is reported.
   double reference = 0;
 
   /// Returns energy / reference, clamped to [0, 1]; 0 where the reference is 0.

@@ -7,10 +7,10 @@
 namespace antilock {
 
 /// Returns the report on the locking of a solved scene (LockingReport, measure/result.hpp), and
-/// nothing for a scene without a layer. A nonconforming element does not lock on any mesh, and a
-/// conforming one does not lock on an aligned mesh (layer_components.hpp). Then the diagnosis says
-/// so, and locking_loss is not called. Otherwise locking_loss measures the energy that is lost, as
-/// a share of the energy that the motion of the layer releases:
+/// nothing for a scene without a layer. Nothing can lock in a Ventcel layer, which has no mesh,
+/// with a nonconforming element, or on an aligned mesh (layer_components.hpp). Then the diagnosis
+/// says so, and locking_loss is not called. Otherwise locking_loss measures the energy that is
+/// lost, as a share of the energy that the motion of the layer releases:
 /// - It warns if the share of the estimate is at least `significance` (locking.hpp), 5 %.
 /// - The warning says "proved" and gives the share of the lower bound if this share, too, is at
 ///   least `significance`. Otherwise it gives the estimate, and `lost` is empty.

@@ -24,8 +24,8 @@ struct WorstLoad {
 double loss_of_wave(int k);
 
 /// Returns the limit as h -> 0 of the worst error of P_p over the ball at epsilon = 0 on an
-/// unstructured mesh; no mesh has a smaller one. It is the error if the body is resolved exactly,
-/// but its trace on Sigma, the interface of body and layer, is x (1 - x) times a polynomial of
+/// unstructured mesh; no mesh has a smaller one. In this limit the body is resolved exactly, but
+/// the trace of u_h on Sigma, the interface of body and layer, is x (1 - x) times a polynomial of
 /// degree p - 2 (0 for p = 1). p is at least 1. The series are cut after 64 waves.
 ///
 /// Let e_k be psi_k sin(k pi x) in the body and sin(k pi x) in the layer. The functions that the
