@@ -13,11 +13,11 @@ enum class Quantity { displacement, stress };
 /// (cited in problem/variational_inequality.hpp), or of the body alone. It is computed from a
 /// Crouzeix-Raviart solution, the equilibrated flux sigma made of it, and one conforming function v
 /// of K, the admissible set of the exact problem. A is the stiffness (FluxLaw), so that A grad u is
-/// the flux of u. J(u) = a(u, u) / 2 - L(u) is the energy, and |.|_a the energy norm of Remark 4,
-/// in which everything is dimensionless. The bound holds for every epsilon in [0, 1], up to
-/// round-off, and up to the sampling of the data: load and traction are integrated by quadrature
-/// rules, and gap, displacement and stiffness are checked at sample points. At the epsilons that
-/// were tried it was at most 1.5 times the error (chapter 19).
+/// the flux of u. J(u) = a(u, u) / 2 - L(u) is the energy, and |.|_a the energy norm of Remark 4.
+/// Everything is dimensionless. The bound holds for every epsilon in [0, 1], up to round-off, and
+/// up to the sampling of the data: load and traction are integrated by quadrature rules, and gap,
+/// displacement and stiffness are checked at sample points. At the epsilons that were tried it was
+/// at most 1.5 times the error (chapter 19).
 struct Certificate {
   double displacement = 0;  ///< >= |u - v|_a
   double gradient = 0;      ///< >= |A grad u - S_h|, S_h the flux of the Crouzeix-Raviart solution
@@ -40,7 +40,7 @@ struct Certificate {
   double bound(Quantity of) const { return of == Quantity::displacement ? displacement : stress; }
   /// Returns an upper bound of the relative error. It is the bound divided by a lower bound of
   /// |u|_a, the larger one of |v|_a - displacement and midpoint_norm - stress. It is infinite if
-  /// that is not positive.
+  /// this lower bound is not positive.
   double relative(Quantity of) const;
 };
 

@@ -29,7 +29,8 @@ struct FluxCell {
   Eigen::Vector2d s = Eigen::Vector2d::Zero();
   /// f_1 at the vertices: f projected on the affine functions.
   Eigen::Vector3d f = Eigen::Vector3d::Zero();
-  /// c_E = -6 |E| mean_E(G (t - 1/2)) on its edges E, G the traction, t from 0 to 1 along E.
+  /// For each edge E the coefficient by which tau balances the slope of the traction G along E: c_E
+  /// = -6 |E| mean_E(G (t - 1/2)), t from 0 to 1 along E.
   Eigen::Vector3d traction = Eigen::Vector3d::Zero();
   double oscillation2 = 0;  ///< osc_T^2
   double tau2 = 0;          ///< |tau|_T^2, in the norm of A^-1
