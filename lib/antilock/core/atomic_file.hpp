@@ -28,9 +28,9 @@ void check_not_an_input(const std::filesystem::path& path,
 /// computation, so that no work is lost. It changes nothing.
 void check_folder(const std::filesystem::path& folder);
 
-/// Writes the files of one result, all or none: `write` fills a draft, whose files then take their
-/// places in `folder`, which is made if absent. A lock keeps two processes from mixing their files
-/// in one folder, if its file system has locks (NFS may not). Files of an earlier result are
+/// Writes all files of one result, or none. `write` fills a draft. Its files then take their places
+/// in `folder`, which is made if it does not exist. A lock keeps two processes from mixing their
+/// files in one folder, if the file system has locks (NFS may not). Files of an earlier result are
 /// removed if their names are in `known` and the new result does not have them. Throws Error, and
 /// leaves nothing behind, where anything fails before the first file is in place.
 void write_folder(const std::filesystem::path& folder,
