@@ -23,9 +23,9 @@ double stress_norm(const ExactSolution& exact);
 double layer_norm(const ExactSolution& exact);
 
 /// Returns ||u - v||_{1,Omega} for the v that is 0 on the layer and solves -Delta v = f on the
-/// body, clamped on Sigma as well. A method that locks completely tends to v, so this is its error
-/// from the limit u (epsilon = 0). In the body u - v is the sum of w_k sin(k pi x) sinh(a (1 - y))
-/// / sinh(a), w_k the waves of u on Sigma.
+/// body, clamped on Sigma as well. A method that locks completely tends to v. So this norm is the
+/// limit of its error at epsilon = 0, where u is the solution of the limit problem. In the body u -
+/// v is the sum of w_k sin(k pi x) sinh(a (1 - y)) / sinh(a), w_k the waves of u on Sigma.
 double clamped_distance(const ExactSolution& limit);
 
 /// Integrals of squared second derivatives, by the same rule. `body` is |u|_2^2, the integral of

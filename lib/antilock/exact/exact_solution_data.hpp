@@ -17,7 +17,8 @@ struct ExactSolution::Data {
   Eigen::VectorXd on_gamma_c;      ///< c_k: u(x, -1)
   Eigen::VectorXd stress_sigma;    ///< layer stress on Sigma
   Eigen::VectorXd stress_gamma_c;  ///< layer stress on Gamma_C: -lambda_k
-  /// 1 for low k, falling to 0 at k = n, for series that jump; see exact_solution.cpp.
+  /// Factors for the coefficients of series that jump: 1 for low k, and falling to 0 at k = n
+  /// (exact_solution.cpp).
   Eigen::VectorXd filter;
   Eigen::VectorXd displacement;  ///< c at the points
   Eigen::VectorXd pressure;      ///< lambda at the points

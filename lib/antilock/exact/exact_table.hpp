@@ -22,8 +22,8 @@ struct ExactPoint {
 /// 1e-6, 1e-20, 0} and loads of waves 1 to 8. The largest errors are:
 /// - value: 6e-9;
 /// - gradient: 4e-6 of its maximum, and 5e-4 within 1e-4 of an end of contact;
-/// - layer_stress: 1e-6, and 1e-4 near an end of contact at small epsilon. There it jumps, and
-///   within 2e-4 of the jump the table has the value of neither side.
+/// - layer_stress: 1e-6, and 1e-4 near an end of contact at small epsilon. The layer stress jumps
+///   at an end of contact. Within 2e-4 of this jump the table has the value of neither side.
 ///
 /// The table takes about 0.1 s to build and 30 MB. One point takes 0.1 to 0.5 microseconds.
 class ExactTable {
