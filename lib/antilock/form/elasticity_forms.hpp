@@ -65,9 +65,9 @@ const Quadrature& strain_quadrature(const VectorSpace& space);
 
 /// Returns the N x N matrix of 2 mu weight sum_e |e|^-1 int_e [u].[v], mu = 1, over the interior
 /// and the clamped edges e, for the components that are CR. [u] is the jump. Crouzeix-Raviart needs
-/// this form with the symmetric gradient, because it has no Korn inequality without it (P. Hansbo
-/// and M. G. Larson, ESAIM: M2AN 37, 2003). With clamped_in_x = false the clamped edges prescribe
-/// the component y alone.
+/// this form with the symmetric gradient, because Korn's inequality does not hold for this element
+/// without the form (P. Hansbo and M. G. Larson, ESAIM: M2AN 37, 2003). With clamped_in_x = false
+/// the clamped edges prescribe the component y alone.
 Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight,
                                       bool clamped_in_x = true);
 /// Returns the same form in factors: a row of B per edge and component, with the modulus 2 mu

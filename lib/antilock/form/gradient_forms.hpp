@@ -10,7 +10,8 @@
 
 namespace antilock {
 
-/// The stiffness of a region in x and in y: the form is int x (d_x u) (d_x v) + y (d_y u) (d_y v).
+/// The stiffness of a region: the form is int k_x (d_x u) (d_x v) + k_y (d_y u) (d_y v), where k_x
+/// is the member x, and k_y the member y.
 struct Stiffness {
   double x = 1, y = 1;
 };
