@@ -27,8 +27,8 @@ struct LockingReport {
   /// (`significance`) but the share of the lower bound is below 5 %.
   std::optional<double> lost = {};
   /// Empty if `estimate` is below 5 %. Otherwise it is one sentence that contains "locks", the
-  /// share, its origin and the remedies. The origin is "proved", or, if `lost` is empty, a second
-  /// solve with columns.
+  /// share, its origin and the remedies. The share is rounded down to whole per cent, and is at
+  /// most 99 %. The origin is "proved", or, if `lost` is empty, a second solve with columns.
   std::string warning = {};
   /// The share of LockingLoss::estimate; 0 where locking_loss was not called or throws.
   double estimate = 0;
