@@ -34,9 +34,9 @@ TriangleMesh jittered_mesh(int cells, double amount);
 /// of isosceles triangles. Their bases are horizontal, of length 1/cells, and alternately below and
 /// above, so that no inner edge is vertical. The layer of columns_mesh is the same turned by 90
 /// degrees, in `columns` columns. The triangles of a layer are congruent, except for the halves at
-/// the ends of each row or column. The body has rectangles, each cut by a diagonal, which meet the
-/// vertices of the layer on Sigma. Both throw Error unless 1 <= cells <= 2048 and 1 <= rows,
-/// columns <= 4096.
+/// the ends of each row or column. The body consists of rectangles, each cut by a diagonal. On
+/// Sigma its vertices are those of the layer. Both throw Error unless 1 <= cells <= 2048 and 1 <=
+/// rows, columns <= 4096.
 TriangleMesh rows_mesh(int cells, int rows);
 TriangleMesh columns_mesh(int cells, int columns);
 

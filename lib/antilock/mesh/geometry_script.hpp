@@ -31,7 +31,7 @@ std::string geometry_script(const std::string& text);
 /// variables.
 std::vector<std::string> geometry_script_commands();
 
-/// Returns the names of the options that it may write behind `Geometry.`.
+/// Returns the names of the options that geometry_script may write behind `Geometry.`.
 std::vector<std::string> geometry_script_options();
 
 }  // namespace antilock

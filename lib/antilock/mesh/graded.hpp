@@ -23,8 +23,8 @@ TriangleMesh tensor_mesh(const std::vector<double>& x, const std::vector<double>
 /// the body next to Sigma, and otherwise the rows of the layer next to Gamma_C.
 ///
 /// Throws Error unless 0 < end < 1, 0 <= epsilon <= 1, width >= 1e-6, 0 <= layers <= 60 and 0 <
-/// ratio < 1, and where tensor_mesh does. It also throws where the cells at `end` would be smaller
-/// than its round-off.
+/// ratio < 1, and where tensor_mesh does. It also throws where the cells at x = `end` would be
+/// smaller than the round-off of `end`.
 TriangleMesh graded_mesh(double end, double width, int layers, double ratio, double epsilon);
 
 }  // namespace antilock

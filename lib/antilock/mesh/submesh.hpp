@@ -6,8 +6,9 @@
 
 namespace antilock {
 
-/// A submesh: some triangles of a mesh, with the old numbers of its vertices. The edges where the
-/// mesh is cut are clamped, and Sigma, the edges between body and layer, are contact.
+/// A submesh: some triangles of a mesh, with the old numbers of its vertices. An edge at which the
+/// mesh is cut becomes clamped, except for the edges of Sigma, between body and layer. They get the
+/// tag contact.
 struct Submesh {
   TriangleMesh mesh;
   std::vector<int> old_vertex;

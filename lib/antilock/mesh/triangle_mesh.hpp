@@ -34,7 +34,7 @@ struct EdgeTag {
     dirichlet,  ///< of a named group with Dirichlet data
   };
   Kind kind = Kind::interior;
-  /// k = 0, 1, ... of a named group, its index in Scene::edges(); -1 for the other kinds.
+  /// The index k = 0, 1, ... of a named group in Scene::edges(); -1 for the other kinds.
   int group = -1;
 
   static const EdgeTag interior, sigma, clamped, contact, free;
