@@ -7,9 +7,9 @@ namespace antilock {
 
 /// A clamped plate of Reissner and Mindlin, pressed by `load` on an obstacle below all of it (the
 /// thin structure of the introduction of [SR04], cited in problem/variational_inequality.hpp, in
-/// two dimensions). It is dimensionless: the bending stiffness is 1, the shear stiffness 1 / t^2.
-/// With Young's modulus E, Poisson's ratio nu and the shear factor k = 5/6, t is the thickness
-/// divided by sqrt(6 k (1 - nu)), which is 1.9 for nu = 0.3, and by the unit of length.
+/// two dimensions). It is dimensionless: the bending stiffness is 1, the shear stiffness 1 / t^2. t
+/// is the thickness in the unit of length, divided by sqrt(6 k (1 - nu)), where nu is Poisson's
+/// ratio and k = 5/6 the shear factor. For nu = 0.3 this root is 1.9.
 struct Plate {
   double thickness = 1e-4;                             ///< t, 0 to 1; 0 is Kirchhoff's plate
   double poisson = 0.3;                                ///< nu, 0 to less than 1

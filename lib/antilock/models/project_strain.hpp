@@ -5,8 +5,8 @@
 namespace antilock {
 
 /// Returns the problem with the form a0_h of a projected strain, project_strain(form), in place of
-/// a0. The part `exact_fraction` of a0, 0 or more and less than 1, stays as it is and moves to a1.
-/// With s = exact_fraction:
+/// a0. The part `exact_fraction` of a0, 0 or more and less than 1, is not projected, and moves to
+/// a1. With s = exact_fraction:
 ///
 ///     a1' = a1 + s a0,   a0' = (1 - s) a0_h
 ///     compliance' = projected_class_parameter(compliance, s)
