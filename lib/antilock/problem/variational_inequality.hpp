@@ -51,9 +51,9 @@ struct VariationalInequality {
 
   /// At most R entries, each 0 or more: the compliances of the last rows of B. They do not vary
   /// with `compliance`. Row j with c_j > 0 has the energy m_j (B u)_j^2 / (2 c_j), which belongs to
-  /// a1 and is kept as factors because its stiffness may be so far above the rest of A1 that a sum
-  /// would lose the digits of the rest. c_j = 0 is a linear equality constraint, (B u)_j = 0. The
-  /// compliance of the other rows, the first parametric_row_count() ones, is `compliance`.
+  /// a1. It is kept as factors, because it may be so much stiffer than A1 that their sum would lose
+  /// the digits of A1. c_j = 0 is a linear equality constraint, (B u)_j = 0. The compliance of the
+  /// other rows, the first parametric_row_count() ones, is `compliance`.
   Eigen::VectorXd fixed_compliances = {};
 
   int size() const { return static_cast<int>(load.size()); }
