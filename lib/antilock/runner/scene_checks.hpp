@@ -29,8 +29,9 @@ std::string load_warning(const SceneFile& file, const Space& space,
 std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh);
 
 /// Returns a warning if the boundary of a mesh from a file looks like a curve, else an empty text.
-/// It does if its direction changes at six vertices or more by an angle of at most 45 degrees, that
-/// of a regular octagon. Bounds of the certificate are bounds for the polygon.
+/// The boundary looks like a curve if its direction changes at six vertices or more by an angle of
+/// at most 45 degrees, that of a regular octagon. The warning is needed because the certificate
+/// bounds the error of the problem on the polygon, and not on the curve.
 std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh);
 
 /// Returns a warning if a refined mesh file has a .geo or .brep file of the same name that the
@@ -42,11 +43,11 @@ std::string geometry_warning(const SceneFile& file);
 /// hundred thousand points of Gamma_C.
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution);
 
-/// Returns a warning if the Crouzeix-Raviart u_h in the layer is larger than the largest, or
-/// smaller than the smallest, value on the boundary of the layer by more than a twentieth of max
-/// |u_h|, else an empty text. If the layer has no load, the exact solution in the layer lies
-/// between its smallest and its largest value on the boundary of the layer, by the maximum
-/// principle. Layers with a considerable load are not checked.
+/// Returns a warning if the values of the Crouzeix-Raviart u_h in the layer leave the range of its
+/// values on the boundary of the layer by more than a twentieth of max |u_h|, else an empty text.
+/// If the layer has no load, the exact solution in the layer lies between its smallest and its
+/// largest value on the boundary of the layer, by the maximum principle. Layers with a considerable
+/// load are not checked.
 std::string range_warning(const SceneFile& file, const Space& space, const Solution& solution);
 
 }  // namespace antilock
