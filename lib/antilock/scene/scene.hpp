@@ -18,7 +18,7 @@ using Profile = std::function<double(double x)>;
 /// give it another shape.
 struct Body {
   Field load;
-  /// Positive, constant on each triangle: the value at its centroid; empty: 1.
+  /// The stiffness, which is positive. Each triangle has the value at its centroid. Empty: 1.
   Field stiffness = {};
 };
 
