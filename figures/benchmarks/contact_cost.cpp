@@ -1,7 +1,8 @@
-// What contact costs over one unconstrained sparse Cholesky solve of the same mesh: ratios within
-// one run, medians, since machines differ and their ratios hardly do. P1 structured at every size,
-// CR at 1/h = 256; epsilon = 1e-6. The Cholesky solve is measured twice: with CHOLMOD as it comes,
-// and with its loops on one thread, as the solver runs it.
+// This program compares the seconds of a contact solve with those of one unconstrained sparse
+// Cholesky solve on the same mesh. It prints ratios of medians from one run, because seconds differ
+// between machines and ratios hardly do. The mesh is structured with P1 at every size, and with CR
+// at 1/h = 256; epsilon = 1e-6. The Cholesky solve is measured in two ways: with CHOLMOD as it
+// comes, and with its loops on one thread, as the solver runs it.
 //
 // Run: contact_cost --out results/benchmark      two minutes on two cores
 #include <fmt/format.h>
@@ -135,8 +136,8 @@ struct Row {
   }
 };
 
-// What was asked for and what was measured: lines on the screen, and targets.csv for
-// figures/benchmark.
+// The targets and the measured values: they are printed, and written to targets.csv, which
+// figures/benchmark reads.
 struct Targets {
   std::string csv = "what,asked,measured,met\n";
   void add(const std::string& what, const std::string& asked, const std::string& measured,

@@ -66,8 +66,8 @@ void run_elastic(const std::string& script, const TriangleMesh& mesh, double par
 /// Reads what it left there for the element `name`: P1, P1nc (with jumps) or KS.
 ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name,
                              const VectorSpace& space);
-/// What elastic_answer reads, the tangential forces by x behind the normal ones; the energy holds
-/// the work of the friction.
+/// Reads the same files as elastic_answer. The tangential forces, ordered by x, follow the normal
+/// ones, and the energy contains the work of the friction.
 ElasticAnswer friction_answer(const std::filesystem::path& folder, const std::string& name,
                               const VectorSpace& space);
 

@@ -21,9 +21,9 @@ struct SceneCheck {
 /// that it touches.
 constexpr double model_bound = 5e-4;
 
-/// Every scene. `mistake`: what model_check.edp is told to do wrong: "nothing", "load" (reaches
-/// into the layer), "stiffness" (1 in the layer) or "obstacle" (from above). `cells` of its mesh
-/// along the body's lower side.
+/// Runs model_check.edp for every scene. `mistake` names the error that the script makes on
+/// purpose: "nothing", "load" (it reaches into the layer), "stiffness" (1 in the layer) or
+/// "obstacle" (from above). Its mesh has `cells` edges along the body's lower side.
 std::vector<SceneCheck> model_check(const std::filesystem::path& folder,
                                     const std::string& mistake = "nothing", int cells = 120);
 

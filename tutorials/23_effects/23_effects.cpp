@@ -32,8 +32,8 @@
 // - before the change of variable $y → y/ε$ the layer is $(0,1) × (-ε,0)$ and $1/ε$ times
 //   as stiff: (22).
 //
-// Each of these is a type (`scene/scene.hpp`), so that what a scene lacks cannot cost
-// anything: there is no code to skip. Contact has a *gap*, the distance between undeformed
+// Each of these is a type (`scene/scene.hpp`), so that an effect that is not in a scene costs
+// nothing: there is no code to skip. Contact has a *gap*, the distance between undeformed
 // body and obstacle at $x$: $u ≥ -$gap.
 
 #include "antilock/study/scene_sweep.hpp"

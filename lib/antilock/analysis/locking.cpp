@@ -31,8 +31,9 @@ double bending_length(const TriangleMesh& mesh) {
 
 namespace {
 
-/// What a force of 1, spread over the bounds, moves them on average, without bounds and loads.
-/// Empty: they are held by nothing else, or the solve does not get there.
+/// Returns the mean displacement of the bounded unknowns under a total force of 1 that is spread
+/// over them, without bounds and loads. Returns nothing if only the bounds hold them, or if the
+/// solve does not converge.
 std::optional<double> flexibility(VariationalInequality problem, const std::vector<int>& bounds,
                                   double compliance) {
   problem.load.setZero();

@@ -57,8 +57,9 @@ class MshLines {
     }
     return false;
   }
-  /// Moves to the next record of `section`; refuses the end of the file, a line that starts with
-  /// $ (fewer records than declared), and, unless it is 0, another number of fields; `what` says what the fields are.
+  /// Moves to the next record of `section`. Refuses the end of the file, and a line that starts
+  /// with $, because the section then has fewer records than it declares. Unless `count` is 0, a
+  /// record must have `count` fields; `what` names them in the refusal.
   void next_record(std::string_view section, std::size_t count = 0, std::string_view what = "") {
     if (!next()) refuse_file<MeshError>("truncated: it ends within ${}", section);
     if (fields[0].front() == '$')
@@ -263,8 +264,9 @@ void read_node(const MshLines& lines, MshFile& file, std::int64_t tag, std::size
        lines.number});
 }
 
-/// Records: tag x y z; in
-/// $ParametricNodes (Mesh.SaveParametric) also the dimension and the tag of the entity that the node is on, and one parameter on a curve, two on a surface.
+/// Reads records `tag x y z`. In $ParametricNodes (gmsh's Mesh.SaveParametric) a record also has
+/// the dimension and the tag of the entity that the node is on, and one parameter on a curve or two
+/// on a surface.
 void read_nodes_2(MshLines& lines, MshFile& file, const std::string& section) {
   lines.next_record(section, 1, "their number");
   for (std::int64_t left = lines.count(0); left > 0; --left) {
