@@ -10,9 +10,9 @@ namespace antilock {
 // While files are written, they are in a draft: a folder beside their destination, named `.draft-`
 // and six random characters. From there they move to their destination by renaming, within one file
 // system. If an error or one of the signals SIGINT, SIGTERM and SIGHUP ends the writing, the draft
-// is removed with everything in it. The program ends by such a signal after the last draft has been
-// removed, unless it handles the signal itself. Another signal, such as SIGKILL, SIGQUIT or
-// SIGSEGV, or a power cut may leave a draft behind, which no later process changes.
+// is removed with everything in it. The signal ends the program after the last draft has been
+// removed, unless the program handles such signals itself. Another signal, such as SIGKILL, SIGQUIT
+// or SIGSEGV, or a power cut may leave a draft behind, which no later process changes.
 
 /// Writes a whole file or none. `write` fills the stream of a temporary file, which is then renamed
 /// to `path`. Missing folders are made. Numbers are written with 17 significant digits. Throws

@@ -6,8 +6,8 @@
 
 namespace antilock {
 
-/// The size in bytes of the buffer that OpenBLAS maps for each of its threads. It is the
-/// BUFFER_SIZE of x86-64, the largest of all processors, plus one page.
+/// The size in bytes of the buffer that OpenBLAS maps for each of its threads. It is OpenBLAS's
+/// BUFFER_SIZE on x86-64 plus one page.
 constexpr std::size_t blas_buffer = (std::size_t{128} << 20) + (1 << 12);
 
 /// Returns whether the limits of the process (ulimit -v, ulimit -d) leave room for so many bytes at
@@ -23,10 +23,10 @@ bool can_map(std::size_t bytes);
 void require_memory(std::size_t bytes, const std::string& what);
 
 /// Returns the bytes that this process may still use. Each control group of the process, and each
-/// parent of one, leaves its limit minus its usage; the result is the smallest of these. It reads
-/// version 2, or the memory controller of version 1. Files that the kernel keeps in memory count as
-/// free. The result is empty where there is no limit. `groups` is /sys/fs/cgroup, `own` is
-/// /proc/self/cgroup.
+/// parent of one, leaves its limit minus its usage; the result is the smallest of these. Control
+/// groups of version 2 are read, or the memory controller of version 1. Files that the kernel keeps
+/// in memory count as free. The result is empty where there is no limit. `groups` is
+/// /sys/fs/cgroup, `own` is /proc/self/cgroup.
 std::optional<double> left_by_control_groups(const std::filesystem::path& groups,
                                              const std::filesystem::path& own);
 

@@ -13,8 +13,8 @@ void require_output();
 /// `status`. `main` calls it last.
 int delivered(int status, const std::string& program);
 
-/// Opens each of the descriptors 0 to 2 that was closed when the program started, in a mode in
-/// which reading standard input, or writing to the other two, fails. Otherwise the first file that
+/// Opens each of the descriptors 0 to 2 that was closed when the program started. Reading from such
+/// a standard input, and writing to such an output, still fails. Without this the first file that
 /// the program writes would get the number of standard output, and would contain the output.
 void open_standard_streams();
 
