@@ -36,8 +36,8 @@ struct BoundaryCondition {
   Field value = {};  ///< g(x, y); needed for each kind except free
 };
 
-// Each effect of a scene is a type of its own. An effect that is absent adds no mesh, no unknown
-// and no iteration.
+// The effects of a scene are its layer and its contact. Each kind of effect is a type of its own.
+// An effect that is absent adds no mesh, no unknown and no iteration.
 
 /// The body alone. A contact, if there is one, is on Sigma, the lower side of the body (y = 0).
 struct NoLayer {};
