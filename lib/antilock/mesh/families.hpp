@@ -27,7 +27,7 @@ MeshFamily unstructured(const Domain& domain = {});
 ///     staggered                       rows of triangles as high as wide
 ///     rows                            rows of nearly equilateral triangles
 ///
-/// The triangles of columns are nearly equilateral, too.
+/// The triangles of the family columns are nearly equilateral, like those of the family rows.
 const std::vector<MeshFamily>& mesh_families();
 /// Returns the family of this name. Throws Error for another name.
 const MeshFamily& mesh_family(const std::string& name);

@@ -45,11 +45,11 @@ enum class Mesher { mesh_adapt = 1, delaunay = 5, frontal = 6 };  ///< gmsh's ow
 /// Returns the unstructured mesh of Figure 6, by gmsh (one thread, fixed seed): the same mesh in
 /// every call. Frontal-Delaunay begins at the boundary, so that most triangles of the layer have a
 /// vertical edge. Delaunay and MeshAdapt avoid this. In a thin layer the cells shrink to half of
-/// its depth. Beyond 128 cells gmsh makes a coarser mesh with cells / 2^k, k at most 3. k is the
-/// smallest number for which this is at most 80, unless the cells of a layer would then be deeper
-/// than the layer. In that case k is the largest number for which they are not. Every triangle is
-/// then cut into four by its midpoints, k times. So the angles are those of the coarse mesh, and
-/// inside of its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512.
+/// its depth. Beyond 128 cells gmsh makes a coarser mesh with cells / 2^k, k at most 3. For a body
+/// alone k is the smallest number with cells / 2^k <= 80. With a thin layer k may be smaller,
+/// because the cells of the coarse mesh must not be deeper than the layer. Every triangle is then
+/// cut into four by its midpoints, k times. So the angles are those of the coarse mesh, and inside
+/// of its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512.
 TriangleMesh unstructured_mesh(int cells, const Domain& domain = {},
                                Mesher mesher = Mesher::frontal);
 

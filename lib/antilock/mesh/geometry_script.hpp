@@ -11,9 +11,9 @@ namespace antilock {
 ///
 /// The returned text consists of numbers, signs, words from a list of drawing commands, and
 /// variables, which are called v_1, v_2, ... in place of their names. The only texts in quotation
-/// marks are "OpenCASCADE" and "Built-in". So every word that gmsh reads comes from this library,
-/// and in whatever order the words are, they can name no file and start no program. Tokens keep
-/// their lines, so that the messages of gmsh name the right line.
+/// marks are "OpenCASCADE" and "Built-in". So every word that gmsh reads comes from this library.
+/// In no order can these words name a file or start a program. Tokens keep their lines, so that the
+/// messages of gmsh name the right line.
 ///
 /// With an index outside of 0 to 1e6 gmsh would write outside of its list. Therefore such an index
 /// is replaced by a division by zero, which gmsh reports as an error.

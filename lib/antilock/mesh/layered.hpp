@@ -18,9 +18,10 @@ namespace antilock {
 ///
 /// With `along_normals` Sigma, the lower side of the body, may be curved, as the graph of a
 /// function of x. The layer of thickness t = epsilon is then gamma(s) + t d n(s), 0 < d < 1, with s
-/// the length along Sigma and n the normal out of the body. With c the curvature of Sigma and J = 1
-/// + t c d, the area element is t J ds dd, and the derivatives are d_s / J along and d_d / t
-/// across. So the energy of a layer of modulus 1 / t, (22), becomes that of (23) with two weights:
+/// the length along Sigma and n the normal out of the body. Let c be the curvature of Sigma and J =
+/// 1 + t c d. Then the area element is t J ds dd, the derivative along Sigma is d_s / J, and the
+/// derivative across is d_d / t. So the energy of a layer of modulus 1 / t, (22), becomes that of
+/// (23) with two weights:
 ///
 ///     int u_s^2 / J + t^-2 J u_d^2 ds dd.
 ///

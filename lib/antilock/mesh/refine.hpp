@@ -15,8 +15,8 @@ TriangleMesh refined(const TriangleMesh& mesh);
 /// nothing moves. Throws Error where gmsh cannot read the geometry, and for an edge whose ends are
 /// on no curve of it. A triangle that turns over is detected later, when the mesh is made.
 void follow_geometry(const TriangleMesh& mesh, const std::vector<int>& middle, Points& vertices);
-/// Returns the text by which messages call the refined mesh. It is `how`. For a mesh with a
-/// geometry the probable reason of an error is appended.
+/// Returns the name of the refined mesh in messages. It is `how`, followed by the probable reason
+/// of an error if the mesh has a geometry.
 std::string refinement_name(const TriangleMesh& mesh, const std::string& how);
 
 }  // namespace antilock
