@@ -44,8 +44,8 @@ struct StrainTerm {
   double weight = 1;
 };
 /// Returns the factored form of sum_k weight_k int strain_k(u) strain_k(v) over one region, or over
-/// all. There is a row of B per strain and point of strain_quadrature. Its entry of M is weight_k
-/// times the weight of the point and the area.
+/// all. There is a row of B per strain and point of strain_quadrature. Its entry of M is the
+/// product of weight_k, the weight of the point and the area of the triangle.
 FactoredForm strain_form_factored(const VectorSpace& space, const std::vector<StrainTerm>& strains,
                                   std::optional<Region> region = {});
 

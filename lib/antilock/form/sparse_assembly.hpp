@@ -45,8 +45,8 @@ class FactoredFormBuilder {
 
 /// Returns the column pointers (N + 1) of the compressed matrix of a space: the position at which
 /// each column begins, and the one at which the last column ends. The rows of a column are the
-/// unknowns that share a triangle with its unknown. They are counted by the vertices, edges and
-/// triangles around it.
+/// unknowns that share a triangle with its unknown. Their number follows from the numbers of
+/// vertices, edges and triangles around this unknown.
 inline std::vector<int> column_pointers(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const int v = space.element().dofs_per_vertex(), e = space.element().dofs_per_edge(),
