@@ -40,11 +40,11 @@ Eigen::VectorXd pressure(const Coating& coating, const VectorSpace& space, const
 /// Returns the penalty (ActiveSetOptions::penalty) with which the problem of the coating should be
 /// solved, or nothing if the default is right. B = B_0 + t B_1 depends on t. If d_y is not
 /// surjective onto the rows of B, there are u with B_0 u = 0 for which no small correction v
-/// satisfies B_0 v = -t B_1 u. For them a0 is of the order t^2 a1, which is neither stiff nor 0.
-/// With a penalty delta far above t^2 they converge slowly: a correction removes only the fraction
-/// t^2 / delta of their error. The remedy is delta = t^2, as long as the factor keeps digits of A1
-/// beside t^-2 (t >= 1e-6; below, delta is 1e-12). With Crouzeix-Raviart for both components d_y is
-/// surjective.
+/// satisfies B_0 v = -t B_1 u. For such u the stiff term t^-2 a0 is only of the order of a1, so it
+/// is neither stiff nor 0. With a penalty delta far above t^2 they converge slowly: a correction
+/// removes only the fraction t^2 / delta of their error. The remedy is delta = t^2, as long as the
+/// factor keeps digits of A1 beside t^-2 (t >= 1e-6; below, delta is 1e-12). With Crouzeix-Raviart
+/// for both components d_y is surjective.
 std::optional<double> penalty(const Coating& coating, const VectorSpace& space);
 
 }  // namespace antilock
