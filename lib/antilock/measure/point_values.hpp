@@ -18,8 +18,8 @@ class PointValues {
     Eigen::Vector3d lambda;
   };
   /// Returns the location of x, and nothing outside the mesh. A point beyond an edge by at most the
-  /// fraction `outside` of the size of the triangle counts as inside. For a point on an edge it is
-  /// the triangle with the smallest number.
+  /// fraction `outside` of the size of the triangle counts as inside. A point on an edge is located
+  /// in that one of its triangles which has the smallest number.
   std::optional<Location> locate(const Eigen::Vector2d& x, double outside = 1e-12) const;
 
   /// Returns the value of the function with the N unknowns u; for Crouzeix-Raviart that in the

@@ -9,10 +9,10 @@
 
 namespace antilock {
 
-/// Wall seconds of a run by stage. `mesh` is the time of the scene and its mesh, `assemble` that of
-/// the discrete problem and the check of its load, `factor` that of the factorisation, and `solve`
-/// that of the rest of the solve with the checks of the result. The times of the files are measured
-/// where they are written.
+/// Wall seconds of a run by stage. `mesh` is the time of the scene and its mesh. `assemble` is the
+/// time of the discrete problem and of the check of its load. `factor` is the time of the
+/// factorisation. `solve` is the time of the rest of the solve and of the checks of the result. The
+/// times of the files are measured where they are written.
 struct RunSeconds {
   double mesh = 0, assemble = 0, factor = 0, solve = 0;
 };
@@ -28,7 +28,8 @@ struct LockingReport {
   std::optional<double> lost = {};
   /// Empty if `estimate` is below 5 %. Otherwise it is one sentence that contains "locks", the
   /// share, its origin and the remedies. The share is rounded down to whole per cent, and is at
-  /// most 99 %. The origin is "proved", or, if `lost` is empty, a second solve with columns.
+  /// most 99 %. The origin is "proved", or, if `lost` is empty, "by a second solve, with columns".
+  /// This solve is the one for v in locking_loss, where the layer has columns of its own.
   std::string warning = {};
   /// The share of LockingLoss::estimate; 0 where locking_loss was not called or throws.
   double estimate = 0;
