@@ -33,9 +33,9 @@ enum class Verdict { locks_completely, locks, locks_in_part, not_detected };
 /// - If it is 0 on the finer mesh, the bounded unknowns tend to 0 as compliance -> 0 (Proposition
 ///   1: u_h tends to a function of G_h). This is proved.
 /// - If it is not larger on the finer mesh, some load locks. This is proved if the dimension is the
-///   same number m on all meshes: K_0, the set of all v in the admissible set K with B v = 0, has
-///   infinitely many independent traces, and m + 1 of them cannot all be limits of functions whose
-///   traces have the dimension m.
+///   same number m on all meshes. The discrete traces then have at most m independent limits. But
+///   K_0, the set of all v in the admissible set K with B v = 0, has infinitely many independent
+///   traces.
 /// - If it grows by less than 19/20 of the number of additional bounds, a part of the boundary
 ///   cannot move. (Example: the layer is cut into columns under one half of the boundary, and its
 ///   triangles are connected under the other half. The dimension grows, but the other half locks.)
@@ -54,11 +54,11 @@ struct LockingDiagnosis {
   /// Whether a stiff unknown is bounded. If none is, all stiff unknowns count as bounded, and
   /// locking in part is not diagnosed.
   bool bounded = true;
-  /// r(compliance) / r(c) - 1. Here r is the quotient of two flexibilities, that on the finer mesh
-  /// and that on the coarser one. The flexibility is the mean displacement of the bounded unknowns
-  /// under a force of 1 that is spread over them, and c is the compliance at which both forms are
-  /// about as stiff (StiffnessRatio, rounded to a decade). It is evaluated at `compliance`, or at
-  /// 1e-6 c if `compliance` is 0.
+  /// r(compliance) / r(c) - 1. Here r is the flexibility on the finer mesh divided by the
+  /// flexibility on the coarser one. The flexibility is the mean displacement of the bounded
+  /// unknowns under a force of 1 that is spread over them, and c is the compliance at which both
+  /// forms are about as stiff (StiffnessRatio, rounded to a decade). It is evaluated at
+  /// `compliance`, or at 1e-6 c if `compliance` is 0.
   double refinement_softening = 0;
   /// The largest compliance at which the flexibilities show locking: the first of 1e-1 c, 1e-2 c,
   /// ..., 1e-6 c at which `refinement_softening` is above `significance` and above |r(c) - 1|. It

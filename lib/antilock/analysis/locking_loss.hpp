@@ -47,8 +47,8 @@ struct LockingLoss {
   /// v_0|_a^2 / 2 (energy norm). If v_0 satisfies the bounds of v, the first is at least the
   /// second, because v minimises J. If v_0 violates them, J(v_0) may be lower than J(v), and the
   /// second is a positive measure of the motion. It is set to 0 if it is below its round-off
-  /// divided by `significance` (locking.hpp), because the round-off alone would then be a share
-  /// that is reported.
+  /// divided by `significance` (locking.hpp), because a share of `significance` could then consist
+  /// of round-off alone.
   double reference = 0;
 
   /// Returns energy / reference, clamped to [0, 1]; 0 where the reference is 0.
