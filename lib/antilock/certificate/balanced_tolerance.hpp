@@ -24,8 +24,8 @@ EnergyBounds energy_bounds(const Scene& scene, const TriangleMesh& mesh);
 /// Returns the tolerance at which an iteration for u_h may stop: its relative error in the energy
 /// norm is at most share b, where b = width / |J| is the relative width of the bounds. Errors in
 /// the energy norm are of the order sqrt(b), those in the maximum norm of the order b where u is
-/// smooth. The tolerance uses b, because it is the smaller one. The energy is quadratic, and
-/// |u_h|_a^2 = 2 |J| if the admissible set K is a cone. Therefore
+/// smooth. The tolerance uses b, which is smaller than sqrt(b) where b < 1. The energy is
+/// quadratic, and |u_h|_a^2 = 2 |J| if the admissible set K is a cone. Therefore
 ///
 ///     J(v) - J(u_h) <= (share b)^2 |J|   implies   |v - u_h|_a <= share b |u_h|_a.
 ///
