@@ -58,8 +58,8 @@ struct CertifiedSolution {
 /// algebraic residual is at most a tenth of the constitutive error (Certificate). `first` is the
 /// first mesh, of any body. Where the layer is extruded, a mesh of only the body suffices. The
 /// Ventcel layer is solved as the scaled one with epsilon = 0. Refined triangles have the shapes of
-/// those of the first mesh. This costs unknowns: a refinement of gmsh's mesh with 1/h = 8 needs 6 %
-/// more unknowns than a fine mesh of gmsh, and a refinement of that with 1/h = 16 needs 1 % more.
+/// those of the first mesh. Therefore more unknowns are needed than on a fine mesh of gmsh: 6 %
+/// more if the first mesh is gmsh's mesh with 1/h = 8, and 1 % more if it is the one with 1/h = 16.
 /// `progress` is called after every level.
 ///
 /// A P1 result is the conforming companion itself, because it is in K also between the vertices.
