@@ -13,8 +13,8 @@ class SceneSweep : public Sweep {
   SceneSweep(const Scene& scene, const Space& space);
 
   /// Sets the thickness epsilon of a scaled layer, 0 to 1. Throws Error for any other layer, and
-  /// for a layer along the normals of a curve, because in these epsilon is absent, or it changes
-  /// the forms or the mesh.
+  /// for a layer along the normals of a curve, because such a layer has no epsilon, or its forms or
+  /// its mesh depend on epsilon.
   void set_epsilon(double epsilon);
   /// Sets the load f of the body. The loads on edges and on the layer stay. Throws Error for an
   /// empty f.
