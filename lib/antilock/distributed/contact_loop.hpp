@@ -53,12 +53,12 @@ struct LoopReport {
 ///                            du = bound - u              on it
 ///
 /// is solved by conjugate gradients with multigrid, to a relative accuracy of 1e-4. The first
-/// contact set is that of the start. Then a point stays in the set where the bound presses on it
-/// (r1 < 0), and enters it where u is below the bound. The loop ends where the set has not changed,
-/// and `tolerance` and `residual` are met. (A1, B, M, r1, r2 and delta are those of
-/// detail/distributed_problem.hpp.) Multigrid is set up again if the set has changed. The old
-/// hierarchy would need up to four times as many iterations, because a released point frees a whole
-/// column of the layer.
+/// correction uses the contact set of the start. Before each later one, a point of the set stays in
+/// it if the bound presses on it (r1 < 0), and another point enters it if u is below the bound. The
+/// loop ends where the set has not changed, and `tolerance` and `residual` are met. (A1, B, M, r1,
+/// r2 and delta are those of detail/distributed_problem.hpp.) Multigrid is set up again if the set
+/// has changed. The old hierarchy would need up to four times as many iterations, because a
+/// released point frees a whole column of the layer.
 ///
 /// The error of a start from a coarser level consists of short waves. A few smoothing steps remove
 /// them, so that the contact set is then nearly right and multigrid is set up only once. Residuals

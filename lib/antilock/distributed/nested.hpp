@@ -38,8 +38,8 @@ struct NestedOptions {
   /// measure other partitions.
   std::function<std::vector<int>(const TriangleMesh&, int ranks)> partition;
   LoopOptions loop;  ///< of the last level
-  /// The level on which the first solve is made. A checkpoint contains the contact set of the level
-  /// before.
+  /// The level on which the first solve is made. A run that continues from the checkpoint of level
+  /// k begins at level k + 1.
   int first_level = 0;
   /// The contact set from which the first level starts; empty: no contact.
   std::optional<ContactSet> start;
