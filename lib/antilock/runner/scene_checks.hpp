@@ -17,8 +17,9 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh);
 /// Returns a warning if the quadrature misses a part of the load f, else an empty text. The
 /// integrals of f, x f and y f over the body are compared with those of at least 250,000 points
 /// spread over all triangles. The warning names an integral that differs by more than a twentieth
-/// of the integral of its absolute value. There is a warning, too, if a quarter of the integral of
-/// |f| lies between the points of the quadrature. A spike between all of these points is not
+/// of the integral of its absolute value. There is a warning, too, if f is far from q, the
+/// quadratic that fits it best at the quadrature points of a triangle: if the integral of |f - q|
+/// is more than a quarter of that of |f|. A spike that lies between all of the points is not
 /// detected.
 std::string load_warning(const SceneFile& file, const Space& space,
                          const VariationalInequality& problem);

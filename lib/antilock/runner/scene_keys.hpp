@@ -39,7 +39,7 @@ struct SceneKey {
   std::string does;  ///< its description, one line
   /// The default, without the quotes of TOML; empty: there is none.
   std::optional<std::string> otherwise{};
-  /// Whether the key must be given whenever its section is.
+  /// Whether each section of this name must contain the key.
   bool required = false;
   std::vector<std::string> choices{};
   /// The text after "accepted: " in a message; for a number without the words "a number, ".

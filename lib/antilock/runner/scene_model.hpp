@@ -86,7 +86,7 @@ struct PressedModel {
 using RubberModel = PressedModel<PlaneStrain>;
 template <>
 std::optional<double> PressedModel<PlaneStrain>::penalty(const Space& space) const;
-/// Reports that P1 locks where h^2 is not small beside epsilon.
+/// Reports that P1 locks if h^2 is not small compared with epsilon.
 template <>
 std::optional<LockingReport> PressedModel<PlaneStrain>::locking_report(const SceneFile& file,
                                                                        const Space& space) const;

@@ -29,8 +29,9 @@ struct Callbacks {
 /// Solves a scene file by its [method]. Without an accuracy this is one solve on the mesh of the
 /// scene, and the history is empty. With an accuracy there are as many solves as the refinement
 /// needs. `warning` is about the layer, the solve, the load, the displacements, the gap and the
-/// polygon, and `locking` is the report on the layer. Throws Error, and NotConverged with the
-/// accuracy that was reached, also where double precision does not suffice for the requested one.
+/// polygon, and `locking` is the report on the layer. Throws Error. Throws NotConverged, with the
+/// accuracy that was reached, if the requested one is not reached, also where double precision does
+/// not suffice for it.
 CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow);
 
 /// Returns the result with its normal bounds only, ordered by x. The bounds of friction, which
