@@ -36,8 +36,9 @@ inline double choose_penalty(const VariationalInequality& problem) {
 }
 
 /// Returns the delta of a factor, max(compliance, penalty). If `penalty` is empty, the penalty is
-/// choose_penalty(problem). The compliance is left out where all rows of B have fixed compliances,
-/// since no row has it then. Throws Error for a penalty that is not a positive finite number.
+/// choose_penalty(problem). If all rows of B have fixed compliances, the compliance is left out of
+/// this maximum, because it belongs to no row. Throws Error for a penalty that is not a positive
+/// finite number.
 double penalty_parameter(const VariationalInequality& problem, std::optional<double> penalty = {});
 
 }  // namespace antilock
