@@ -64,10 +64,10 @@ struct ContactResult {
 ///     Q(v) = v' K v / 2 - q' v + sum of g_i (lower_i - v_i) over the bounds i that slip below
 ///                              + sum of g_i (v_i - upper_i) over the bounds i that slip above.
 ///
-/// The affine hull of the face contains all v with the active values at their bounds. On the rest
-/// of the affine hull J is at least Q. Let w be the minimiser of the quadratic Q on the affine
-/// hull. It solves the linear system of FixedStatusSolution, because this system is the optimality
-/// condition of Q.
+/// The affine hull of the face consists of all v whose active values are at their bounds. At its
+/// points outside of the face J is at least Q. Let w be the minimiser of the quadratic Q on the
+/// affine hull. It solves the linear system of FixedStatusSolution, because this system is the
+/// optimality condition of Q.
 ///
 /// v starts at the first w. Each value that is outside of its range is moved to the end of this
 /// range, and its bound becomes active. Every iteration solves one linear system for w. Then
@@ -78,10 +78,10 @@ struct ContactResult {
 ///
 /// The length of the step. Breakpoints are the fractions of the step at which values meet the ends
 /// of their ranges. The full step is tried first. If J is not lower there than at the first
-/// breakpoint, the step ends where half of the values with a breakpoint have stopped, then where a
-/// quarter have, and so on, until J is lower. The last choice is the first breakpoint itself. The
-/// comparison is cheap, because all these points are in the face, and J(v) = Q(v) = Q(w) + (v - w)'
-/// K (v - w) / 2 there.
+/// breakpoint, shorter steps are tried until J is lower: up to the breakpoint at which half of the
+/// values with a breakpoint have stopped, then a quarter of them, and so on. The last choice is the
+/// first breakpoint itself. The comparison is cheap, because all these points are in the face, and
+/// J(v) = Q(v) = Q(w) + (v - w)' K (v - w) / 2 there.
 ///
 /// Claim. In exact arithmetic the iteration ends with the minimiser, whatever the start.
 ///

@@ -18,12 +18,13 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double round_off = 64 * eps;
 
 /// The relative difference that rounding leaves between two rows of B that are equal in exact
-/// arithmetic. An entry, a gradient on a triangle, is a difference of coordinates (1 rounding)
-/// times the reciprocal (1) of an area. The area is a difference of two products of differences (4
-/// roundings). With the last product these are 7 roundings, each of eps / 2. Two such rows differ
-/// by 7 eps, and the rounding of u to doubles makes it 8. A row whose residual is within this
-/// tolerance counts as satisfied, and two rows within it count as one. Sums and products with u add
-/// nothing, because they are exact (residual.hpp).
+/// arithmetic. An entry of B is a gradient on a triangle: a difference of coordinates times the
+/// reciprocal of an area. The difference, the reciprocal and this product take one rounding each.
+/// The area is a difference of two products of differences, which takes four. Together these are 7
+/// roundings, each of eps / 2. Two such rows differ by 7 eps, and the rounding of u to doubles
+/// makes it 8. A row whose residual is within this tolerance counts as satisfied, and two rows
+/// within it count as one. Sums and products with u add nothing, because they are exact
+/// (residual.hpp).
 constexpr double row_tolerance = 8 * eps;
 
 /// The number of rows of B up to which constraint_defect (forward_error.hpp) looks for nearly
@@ -61,7 +62,7 @@ constexpr double fixed_row_penalty_ratio = 1e-3;
 
 /// The stiffness of the equality row that couples c . u to its slack variable w, relative to that
 /// of c . u (slack_form.hpp). A correction leaves about 1/4096 of the difference of c . u and w.
-/// The factor is penalty_reduction squared, as after two reductions of delta.
+/// The ratio is penalty_reduction squared, as if the penalty of this row had been reduced twice.
 constexpr double slack_stiffness_ratio = penalty_reduction * penalty_reduction;
 
 }  // namespace antilock::defaults

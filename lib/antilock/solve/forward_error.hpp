@@ -16,9 +16,10 @@ namespace antilock {
 /// of its solutions in the same way.
 struct ForwardError {
   /// next / (1 - rate) divided by U = max(|u|, eps largest / tolerance), in the maximum norm, with
-  /// largest = max(|u|, Solution::penalised_max_u). The second term of U is for a u that has
-  /// locked, because the iteration need not reduce its error below the round-off of the unlocked u,
-  /// about eps largest. Divided by this U such an error is equal to the tolerance.
+  /// largest = max(|u|, Solution::penalised_max_u). The second term of U matters for a u that has
+  /// locked. The iteration need not reduce the error of such a u below eps largest, which is about
+  /// the round-off of the unlocked u. Divided by this U, an error of that size is equal to the
+  /// tolerance.
   double relative = 1;
   double constraint = 1;  ///< the largest |r2_j| over the tolerance of row j, see forward_error()
   double absolute = 0;    ///< next / (1 - rate), plus the largest |r2_j| / sum_k |B_jk|
@@ -88,12 +89,12 @@ ConstraintDefect constraint_defect(const VariationalInequality& problem,
                                    const BoundStatuses& status);
 
 /// Adds two errors of u to result.error, which is absolute here. Neither of them changes the size
-/// of the corrections, so the estimate from the corrections does not contain them. The first one is
-/// the effect on u of the round-off of the forces B' M p, which 106 bits leave. It counts where p
-/// is large. If this error is above 1e-9 U (kkt.hpp defines U), result.warning is set and the
-/// second error is not computed. The second one is the constraint defect of nearly dependent rows
-/// of B. If it is above 1e-9 U, result.warning is set as well. Throws NotConverged where the defect
-/// proves that no u of this size is admissible.
+/// of the corrections, so the estimate from the corrections does not contain them. The first one
+/// comes from the forces B' M p, which are rounded even with 106 bits. It counts where p is large.
+/// If this error is above 1e-9 U (kkt.hpp defines U), result.warning is set and the second error is
+/// not computed. The second one is the constraint defect of nearly dependent rows of B. If it is
+/// above 1e-9 U, result.warning is set as well. Throws NotConverged where the defect proves that no
+/// u of this size is admissible.
 void add_conditioning_error(const VariationalInequality& problem, const PenalisedCholesky& factor,
                             const Eigen::VectorXd& constraint_residual, Solution& result);
 

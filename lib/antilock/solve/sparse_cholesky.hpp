@@ -55,8 +55,8 @@ class ConstrainedCholesky {
   explicit ConstrainedCholesky(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}
 
   /// Takes the upper triangle of K and factors it with no unknown constrained. A later K must have
-  /// the same pattern; `trailing_count` is used in the first call only. Returns and throws what
-  /// SparseCholesky does.
+  /// the same pattern; `trailing_count` is used in the first call only. Returns and throws as
+  /// SparseCholesky::factorise does.
   std::optional<int> factorise(SparseMatrix&& k, int trailing_count = 0) {
     k_.swap(k);  // Eigen 3.4 copies a sparse matrix that is moved
     constrained_.assign(k_.cols(), 0);
