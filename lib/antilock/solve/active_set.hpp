@@ -81,9 +81,10 @@ struct ActiveSetOptions {
 /// (problem/choose_penalty.hpp).
 ///
 /// Constraints c . u are solved for in slack form (detail/slack_form.hpp). Without bounds each
-/// correction is one linear solve. Counters::contact_iterations is the largest number of iterations
-/// of one correction, without those of the nested start. Throws Error for a malformed problem or
-/// option, and NotConverged in place of a solution that has not converged.
+/// correction is one linear solve. With finite force limits the loop does not stop at the first du,
+/// unless du = 0 (active_set.cpp has the reason). Counters::contact_iterations is the largest
+/// number of iterations of one correction, without those of the nested start. Throws Error for a
+/// malformed problem or option, and NotConverged in place of a solution that has not converged.
 ///
 /// Reading order: problem/variational_inequality.hpp, bound_status.hpp, contact.hpp, residual.hpp,
 /// this header, forward_error.hpp. The constants and their reasons are in defaults.hpp. The outer

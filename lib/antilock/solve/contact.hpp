@@ -137,8 +137,10 @@ struct ContactResult {
 /// report (kkt.hpp) checks it. (The projection is that of D. P. Bertsekas, SIAM J. Control Optim.
 /// 20, 1982. The release is that of J. J. More and G. Toraldo, SIAM J. Optim. 1, 1991.)
 ///
-/// `start` has C statuses. Without it the iteration starts from ContactSystem::nested_start. Throws
-/// NotConverged after max_iterations linear systems, and Error where K is not positive definite.
+/// `start` has C statuses. A status that its bound cannot have is replaced
+/// (ShiftedBounds::nearest_valid). Without `start` the iteration starts from
+/// ContactSystem::nested_start. Throws NotConverged after max_iterations linear systems, and Error
+/// where K is not positive definite.
 ContactResult solve_contact(ContactSystem& system, const ShiftedBounds& bounds,
                             const std::optional<BoundStatuses>& start, int max_iterations);
 

@@ -35,11 +35,11 @@ struct ForwardError {
 ///     |r2_j| <= t U sum_k |B_jk|
 ///     t = max(defaults::row_tolerance max(1, tolerance / 1e-10), contact_tolerance)
 ///
-/// and constraint_defect() below estimates the error of u that such a residual may hide. Where the
-/// problem may be infeasible, |r2_j| must also be at most CorrectionOptions::kkt_fail() times
-/// min(sum_k |B_jk u_k|, d sum_k |B_jk|), up to the round-off of 106 bits. Here d is the largest
-/// finite bound or prescribed value. Otherwise a large u would hide a constraint that cannot be
-/// satisfied.
+/// and constraint_defect() below estimates the error of u that such a residual may hide. The
+/// problem may be infeasible if a row of B has the compliance 0 and u = 0 is not admissible. Then
+/// |r2_j| must also be at most CorrectionOptions::kkt_fail() times min(sum_k |B_jk u_k|, d sum_k
+/// |B_jk|), up to the round-off of 106 bits. Here d is the largest finite bound or prescribed
+/// value. Otherwise a large u would hide a constraint that cannot be satisfied.
 ForwardError forward_error(const VariationalInequality& problem, const DoubleDoubleVector& u,
                            double next_correction, const Eigen::VectorXd& constraint_residual,
                            double contraction, double largest_u, const CorrectionOptions& options);
@@ -91,10 +91,11 @@ ConstraintDefect constraint_defect(const VariationalInequality& problem,
 /// Adds two errors of u to result.error, which is absolute here. Neither of them changes the size
 /// of the corrections, so the estimate from the corrections does not contain them. The first one
 /// comes from the forces B' M p, which are rounded even with 106 bits. It counts where p is large.
-/// If this error is above 1e-9 U (kkt.hpp defines U), result.warning is set and the second error is
-/// not computed. The second one is the constraint defect of nearly dependent rows of B. If it is
-/// above 1e-9 U, result.warning is set as well. Throws NotConverged where the defect proves that no
-/// u of this size is admissible.
+/// If this error is above 1e-9 U, result.warning is set and the second error is not computed. This
+/// U is that of kkt.hpp, max(|u|, 1e-6 penalised_max_u), and not that of ForwardError. The second
+/// one is the constraint defect of nearly dependent rows of B. If it is above 1e-9 U,
+/// result.warning is set as well. Throws NotConverged where the defect proves that no u of this
+/// size is admissible.
 void add_conditioning_error(const VariationalInequality& problem, const PenalisedCholesky& factor,
                             const Eigen::VectorXd& constraint_residual, Solution& result);
 
