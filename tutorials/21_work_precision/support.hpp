@@ -344,14 +344,16 @@ inline void write_price_list(const std::filesystem::path& folder,
         {m.element + " " + m.mesh, m.epsilon, cell(row[0]), cell(row[1]), cell(row[2])});
   }
   csv.write(folder / "price_list.csv");
-  write_markdown(folder / "price_list.md",
-                 fmt::format("1/h from 8 to {}. Unknowns: seconds of {}, without mesh and "
-                             "assembly, until the relative "
-                             "error at the unknowns is below 1e-2, 1e-3, 1e-4. `-`: failed "
-                             "or over the limit; `never`: "
-                             "locked; `>`: not even on the finest mesh measured.",
-                             runs.back().cells, solvers),
-                 page);
+  write_markdown(
+      folder / "price_list.md",
+      fmt::format("The meshes have 1/h = 8 to {}. An entry has the number of "
+                  "unknowns, a colon, and the seconds of {}. Mesh and assembly "
+                  "are not counted. The relative error at the unknowns is then "
+                  "below 1e-2, 1e-3 or 1e-4. `-` means that the solver failed or "
+                  "took too long, `never` that the element locks, and `>` that "
+                  "the finest mesh is too coarse.",
+                  runs.back().cells, solvers),
+      page);
 }
 
 }  // namespace antilock::tutorial

@@ -122,13 +122,14 @@ inline void write_price_list(const std::filesystem::path& file, const Table& ans
         page.add({load, epsilon, asked, cell(here(uniform).filter_number("value", good)),
                   way("bisected"), way("extruded"), way("midpoint")});
       }
-  write_markdown(file,
-                 "Unknowns: seconds of all levels, certified relative error. Uniform: the "
-                 "first of gmsh's meshes that is "
-                 "proved good enough, without gmsh's seconds. `-`: not on the finest mesh "
-                 "measured; extruded at epsilon "
-                 "= 1 is not tried.",
-                 page);
+  write_markdown(
+      file,
+      "An entry has the number of unknowns, a colon, the seconds of all levels, "
+      "and the certified relative error. The column `uniform` has the first mesh "
+      "of gmsh that is proved to be good enough, and does not count the seconds "
+      "of gmsh. `-` means that the finest mesh is too coarse. At epsilon = 1 the "
+      "layer was not extruded.",
+      page);
 }
 
 /// The certificate of a scene on a mesh.
