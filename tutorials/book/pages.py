@@ -28,7 +28,7 @@ from table import TableError, read as read_table  # noqa: E402
 
 PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 17),
          ("What accuracy costs", 18, 24), ("The class", 25, 99)]
-EXTRA = ["howto_scene", "howto_matrices", "howto_python", "lab", "dataset", "uniform_rate", "errata", "glossary", "notation"]
+EXTRA = ["howto_scene", "howto_matrices", "howto_python", "lab", "dataset", "uniform_rate", "locking_loss", "errata", "glossary", "notation"]
 WIDTH, HEIGHT = 900, 760  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
 
 
