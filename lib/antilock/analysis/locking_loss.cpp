@@ -1,31 +1,16 @@
-// The energy that a layer which does not follow has lost, with a proof, and without a second solve
-// of the same size.
+// The energy that a locked layer has lost, without a second solve of the same size. The sections are
+// those of tutorials/guides/locking_loss.md, which proves each step.
 //
-// 1. The bound. J(u) <= J(v) for every v in K. So J(u_h) - J(v) is a lower bound of the energy
-// J(u_h) - J(u) that u_h has lost. The better v is, the better the bound, and v must not lock.
+//     lower_bound = J(u_h) - J(v') <= J(u_h) - J(u)   for v' in K                  (section 1)
+//     J(u_h + w) - J(u_h) = d' S d / 2 - G' d         body, d = w on Sigma          (section 2)
+//     J of the columns >= J                           trapezoidal rule in y         (section 3)
+//     estimate = layer_excess - min m                 v: a small inequality for d   (section 4)
+//     J(v') - J(v) = a(v, d) + a(d, d) / 2 - L(d)     d = v' - v, affine, lifts     (section 5)
+//     reference = max(J(v_0) - J(v), |v - v_0|^2 / 2)                               (section 6)
 //
-// 2. v in the body. v = u_h + w, w from W, a small subspace of V_h (detail/body_correction.hpp). On
-// Sigma a function of W has as many values as u_h: v reaches waves as short as u_h does, whatever
-// its degree. J(u_h + w) - J(u_h) over the body is w' A w / 2 - F' w, where F are the forces that
-// u_h leaves there. All unknowns above Sigma are eliminated.
-//
-// 3. v in the layer. v has columns of its own, one below each edge of Sigma
-// (detail/layer_columns.hpp), whose rows of B are free of each other: d_y v = 0 is possible for
-// every trace on Sigma. The trapezoidal rule in y makes J(v) larger than it is, never smaller, so
-// the bound holds. (22) is the same problem after y -> y / epsilon, which makes it (23).
-//
-// 4. v. The sum of 2 and 3 is a variational inequality with few unknowns, the differences of v to
-// u_h on Sigma and to the same trace, constant in y, below. Its bounds hold at the bottom of the
-// columns, below the unknowns on Sigma. They are interpolated from the bounds of u_h at its own
-// points.
-//
-// 5. v' in K. v may be below the obstacle between these points, as seen at 33 points per edge. A
-// function that is affine on each edge of Sigma and constant in y is added there (detail/lift.hpp).
-// The sum is v'. With d = v' - v, J(v') - J(v) = a(v, d) + a(d, d) / 2 - L(d).
-//
-// 6. Round-off. Beside prescribed values U the energies of u_h and v are of size s U^2, and what is
-// lost may be far less than the round-off of that. So all energies are differences to that of v_0,
-// whose layer does not move: with w = u_h - v_0, J(v_0 + w) - J(v_0) = a(w, v_0 + w / 2) - L(w).
+// Beside prescribed values U the energies of u_h and v are of size s U^2, and the loss may be far
+// less than the round-off of that. So all energies are differences to that of v_0, whose layer does
+// not move: with w = u_h - v_0, J(v_0 + w) - J(v_0) = a(w, v_0 + w / 2) - L(w) (section 9).
 #include "antilock/analysis/locking_loss.hpp"
 
 #include <algorithm>

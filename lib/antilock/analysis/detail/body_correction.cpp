@@ -20,6 +20,7 @@ HatRows hat_rows(const Points& at, const InterfaceLine& sigma) {
   const double left = at.col(0).minCoeff();
   const double right = at.col(0).maxCoeff();
   const double top = at.col(1).maxCoeff();
+  // the mean distance of two unknowns on Sigma
   const double edge = sigma.length / static_cast<double>(sigma.x.size() - 1);
   HatRows rows;
   rows[0].x = sigma.x;

@@ -10,16 +10,16 @@ namespace antilock {
 /// each of its H hat functions at the unknowns in the body, and rows of 0 at all others.
 ///
 /// The hats stand in rows above each other. Row 0 is Sigma, with one hat per unknown, in the order
-/// of their places. The heights of the rows above are top, top / 2, top / 4, ... down to the length
-/// of an edge of Sigma, and a hat is about as wide as it is high. Between two rows a function is
-/// bilinear. (A correction is nearly harmonic: what varies over a length l on Sigma decays over a
-/// height l.)
+/// of their places. The heights of the rows above are top, top / 2, top / 4, ... as long as they are
+/// more than the mean distance of two unknowns on Sigma. The hats of a row are at most its height
+/// apart. Between two rows a function is bilinear. Section 2 of tutorials/guides/locking_loss.md
+/// says why this is enough.
 RowMatrix correction_space(const Space& space, const InterfaceLine& sigma,
                            const std::vector<char>& in_body);
 
 /// The body's part of the comparison as a problem on Sigma alone: min over the hats above Sigma of
 /// w' A w / 2 - F' w, which is d' form d / 2 - force' d plus a constant for the values d of w on
-/// Sigma. The constant is at most 0, and is left out.
+/// Sigma. The constant is at most 0, and is left out: the bound is then too small, never too large.
 struct CondensedBody {
   Eigen::MatrixXd form;   ///< n x n, symmetric: the Schur complement
   Eigen::VectorXd force;  ///< n values

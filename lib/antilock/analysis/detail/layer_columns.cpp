@@ -11,8 +11,8 @@
 namespace antilock {
 namespace {
 
-/// As many rows as make square cells in the layer of thickness epsilon, but no more than the mesh
-/// has: a coarse layer is no locked one.
+/// R: the number of rows with which the cells are square in the layer of thickness epsilon, but no
+/// more than the mesh has, because a coarse layer is no locked one.
 int row_count(const TriangleMesh& mesh, const InterfaceLine& sigma, double epsilon) {
   // a wave over the depth loses (pi / 8)^2 / 12 = 1.3 % by the height 1/8
   constexpr int most_rows = 8;

@@ -14,11 +14,9 @@ namespace antilock {
 ///
 ///     A1 = diag(depth) x a_x,   B = difference x value,   M = weight / R on each row.
 ///
-/// - (d_x v)^2 is convex in y on a row, so its integral is at most height / 2 times the sum of its
-///   values at the upper and at the lower end: the trapezoidal rule `depth`.
-/// - d_y v is the difference of two lines over the height. Its square is summed at the ends of the
-///   edges for P1, which is not less than the integral, and equal to that of P1 on a mesh of
-///   columns. For a higher degree it is summed at Gauss's points, which is exact.
+/// `depth` is the trapezoidal rule. d_y v is the difference of two lines over the height; its square
+/// is summed at the ends of the edges for P1, and at Gauss's points for a higher degree. Both sums
+/// are not less than the integrals (section 3 of tutorials/guides/locking_loss.md).
 struct LayerColumns {
   int rows = 1;            ///< R
   SparseMatrix a_x;        ///< n x n: s int v' w' on Sigma
