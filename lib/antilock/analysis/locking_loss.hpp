@@ -23,9 +23,9 @@ namespace antilock {
 /// - v_0 is the reference without a motion of the layer: d_y v_0 = 0, and affine in x.
 ///
 /// The loss does not contain what a finer mesh would gain, because v has at most as many rows in
-/// the layer as the mesh. Where a gap oscillates over a few edges, the loss depends on the points at
-/// which u_h meets the gap. (Measured: for a gap with 4.6 edges per wave a loss of 9 % is reported,
-/// but P1 on a mesh of columns, which has other contact points, gains only 3 %.)
+/// the layer as the mesh. Where a gap oscillates over a few edges, the loss depends on the points
+/// at which u_h meets the gap. (Measured: for a gap with 4.6 edges per wave a loss of 9 % is
+/// reported, but P1 on a mesh of columns, which has other contact points, gains only 3 %.)
 struct LockingLoss {
   double estimate = 0;  ///< J(u_h) - J(v), negative where v is the worse of the two
   /// J(u_h) - J(v'), a lower bound of J(u_h) - J(u) up to round-off and to the quadrature error of
@@ -38,8 +38,8 @@ struct LockingLoss {
   double reference = 0;
 
   /// Returns energy / reference, clamped to [0, 1]; 0 where the reference is 0. share(lower_bound)
-  /// is at most (J(u_h) - J(u)) / (J(v_0) - J(u)) where v_0 satisfies the bounds of u_h and of v and
-  /// there is no upper obstacle (section 7 of the guide).
+  /// is at most (J(u_h) - J(u)) / (J(v_0) - J(u)) where v_0 satisfies the bounds of u_h and of v
+  /// and there is no upper obstacle (section 7 of the guide).
   double share(double energy) const;
 };
 

@@ -10,10 +10,10 @@ namespace antilock {
 /// each of its H hat functions at the unknowns in the body, and rows of 0 at all others.
 ///
 /// The hats stand in rows above each other. Row 0 is Sigma, with one hat per unknown, in the order
-/// of their places. The heights of the rows above are top, top / 2, top / 4, ... as long as they are
-/// more than the mean distance of two unknowns on Sigma. The hats of a row are at most its height
-/// apart. Between two rows a function is bilinear. Section 2 of tutorials/guides/locking_loss.md
-/// says why this is enough.
+/// of their places. The heights of the rows above are top, top / 2, top / 4, ... as long as they
+/// are more than the mean distance of two unknowns on Sigma. The hats of a row are at most its
+/// height apart. Between two rows a function is bilinear. Section 2 of
+/// tutorials/guides/locking_loss.md says why this is enough.
 RowMatrix correction_space(const Space& space, const InterfaceLine& sigma,
                            const std::vector<char>& in_body);
 

@@ -14,9 +14,9 @@ namespace antilock {
 ///
 ///     A1 = diag(depth) x a_x,   B = difference x value,   M = weight / R on each row.
 ///
-/// `depth` is the trapezoidal rule. d_y v is the difference of two lines over the height; its square
-/// is summed at the ends of the edges for P1, and at Gauss's points for a higher degree. Both sums
-/// are not less than the integrals (section 3 of tutorials/guides/locking_loss.md).
+/// `depth` is the trapezoidal rule. d_y v is the difference of two lines over the height; its
+/// square is summed at the ends of the edges for P1, and at Gauss's points for a higher degree.
+/// Both sums are not less than the integrals (section 3 of tutorials/guides/locking_loss.md).
 struct LayerColumns {
   int rows = 1;            ///< R
   SparseMatrix a_x;        ///< n x n: s int v' w' on Sigma

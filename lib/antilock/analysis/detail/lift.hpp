@@ -7,10 +7,10 @@
 namespace antilock {
 
 /// Returns the function that lifts v above the obstacle (section 5 of
-/// tutorials/guides/locking_loss.md): n values on Sigma, not below 0. It is affine on each edge, and
-/// 0 where v is high enough at all of the sampled points. v has n values on Sigma, and is the same
-/// at all depths. `basis` has the values of v's basis at points that divide an edge evenly, its two
-/// ends included.
+/// tutorials/guides/locking_loss.md): n values on Sigma, not below 0. It is affine on each edge,
+/// and 0 where v is high enough at all of the sampled points. v has n values on Sigma, and is the
+/// same at all depths. `basis` has the values of v's basis at points that divide an edge evenly,
+/// its two ends included.
 ///
 /// An end that is `held` (per place) does not move: the other one is lifted by so much more. Where
 /// nothing that can move would lift v, a value is infinite, unless v is at most `tolerance` below
