@@ -1,7 +1,7 @@
 // This program measures two ratios of seconds. The first is the cost of a certificate over the
 // solve that it certifies. The second is the gain of an adapted mesh, with the time of all its
-// levels counted. Both times of a ratio come from one run, because seconds differ between machines and
-// ratios hardly do. Each ratio is that of the medians of some repeats.
+// levels counted. Both times of a ratio come from one run, because seconds differ between machines
+// and ratios hardly do. Each ratio is that of the medians of some repeats.
 //
 // Run: certificate_cost                               1/h = 128, three repeats; half a minute
 // Run: certificate_cost --cells 64 --repeats 1

@@ -498,7 +498,8 @@ TEST(FreeFemScripts, WriteTheNumbersOfTheLibrary) {
   // body alone, obstacle, Ventcel, layer, layer and obstacle, thin layer and obstacle
   same([](Path folder) { return freefem::effects(16, 1e-2, folder); }, 1e-10);
   same([](Path folder) { return freefem::certificate(8, folder); }, 1e-10);
-  // ||u_h^epsilon - u_h^0||_h of Proposition 1: each side knows u to 1e-10 of its largest value, and so both terms
+  // ||u_h^epsilon - u_h^0||_h of Proposition 1: each side knows u to 1e-10 of its largest value,
+  // and so both terms
   same([](Path folder) { return freefem::limits(8, folder); }, 1e-9);
   // P1 and P2, in FreeFEM summed into one matrix: at epsilon = 1e-2 that costs four digits of
   // sixteen, hence 1e-9

@@ -181,7 +181,8 @@ void add_conditioning_error(const VariationalInequality& problem, const Penalise
   const double size = result.u.lpNorm<Eigen::Infinity>();
   const double warn_above =
       KktTolerances{}.warn * std::max(size, KktTolerances{}.fail * result.penalised_max_u);
-  // |K^-1| is estimated by n_free / smallest pivot, a heuristic (sparse_cholesky.hpp); double-double numbers leave eps^2 of the largest force
+  // |K^-1| is estimated by n_free / smallest pivot, a heuristic (sparse_cholesky.hpp);
+  // double-double numbers leave eps^2 of the largest force
   const double stress =
       problem.b.rows() > 0
           ? (problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(result.p.cwiseAbs()))

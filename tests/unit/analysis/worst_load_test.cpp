@@ -143,7 +143,8 @@ TEST(WorstLoad, LimitsByDegreeAndWidths) {
     EXPECT_GT(loss_of_degree(p), 1.05 * loss_of_wave(p)) << p;
     EXPECT_LT(loss_of_degree(p), loss_of_degree(p - 1)) << p;
   }
-  // |e_1| / |e_1|_a of e_1 = psi(y) sin(pi x), psi = sinh(pi (1 - y)) / sinh(pi) in the body and 1 in the layer
+  // |e_1| / |e_1|_a of e_1 = psi(y) sin(pi x), psi = sinh(pi (1 - y)) / sinh(pi) in the body and 1
+  // in the layer
   const auto [points, weights] = gauss_rule(20);
   const Eigen::ArrayXd at = pi * (1 - points.array()), psi = at.sinh() / std::sinh(pi),
                        slope = pi * at.cosh() / std::sinh(pi), w = weights.array();

@@ -230,7 +230,8 @@ TEST(ConformingCompanion, IsLiftedBesideAClampedEndAsFarAsTheObstacleAsks) {
   }
 }
 
-// |u|_a >= |v|_a - |u - v|_a, and the same with the midpoint: the larger of the two is in the denominator.
+// |u|_a >= |v|_a - |u - v|_a, and the same with the midpoint: the larger of the two is in the
+// denominator.
 TEST(Certificate, IsRelativeToWhatIsProvedOfTheNorm) {
   Certificate found;
   found.displacement = 1;

@@ -403,8 +403,9 @@ TEST(TruthDistance, H2NormIsThatOfOneWaveByDifferences) {
 }
 
 TEST(TruthDistance, SecondDerivativesAreThoseOfTheLoad) {
-  // |u|_2^2 + 2 F^2 = |f|^2, contact or not (Theorem A of tutorials/guides/uniform_rate.md); int f^2 is half the sum of the
-  // waves'. Where the pressure jumps, a series of n waves leaves a share of 1/n.
+  // |u|_2^2 + 2 F^2 = |f|^2, contact or not (Theorem A of tutorials/guides/uniform_rate.md); int
+  // f^2 is half the sum of the waves'. Where the pressure jumps, a series of n waves leaves a share
+  // of 1/n.
   for (const auto& [load, square] : {std::pair{SineLoad{{{2, {10}}}}, 50.0},
                                      {SineLoad{{{1, {-10}}, {2, {10}}}}, 100.0},
                                      {SineLoad{{{1, {3, 5}}, {3, {-7}}}}, 16.0 + 1.0 / 6 + 24.5}})

@@ -204,8 +204,8 @@ TEST(ForeignMesh, SectionsThatAMeshDoesNotNeedArePassedOver) {
 }
 
 // A relative of meshio #993: with gmsh's option Mesh.SaveAll, the usual answer to a mesh without
-// some elements, lines within the body come in no group. A side in no group is refused, still, and so
-// is a triangle.
+// some elements, lines within the body come in no group. A side in no group is refused, still, and
+// so is a triangle.
 TEST(ForeignMesh, LinesInNoGroupArePassedOver) {
   const std::string more =
       with(with(two_surfaces, "$Elements\n10\n", "$Elements\n11\n"), end, "11 1 2 0 7 2 5\n" + end);
