@@ -123,10 +123,11 @@ class SceneRun {
 
   void answer() {
     read();
-    if (dist::rank() == 0)
-      fmt::print("run_scene: {} (petsc, {} rank{})\n",
-                 printable(file_->title.empty() ? file_->name : file_->title, 200), dist::ranks(),
+    if (dist::rank() == 0) {
+      const std::string& title = file_->title.empty() ? file_->name : file_->title;
+      fmt::print("run_scene: {} (petsc, {} rank{})\n", printable(title, 200), dist::ranks(),
                  dist::ranks() > 1 ? "s" : "");
+    }
     begin_stage("coarse mesh");
     make_coarse_mesh();
     if (choices_.restart) skip_solved_levels();

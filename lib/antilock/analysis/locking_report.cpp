@@ -28,8 +28,7 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
   LockingReport report;
   report.diagnosis = fmt::format(
       "below {} edges of Sigma the layer's triangles are tied into {} group{} by edges that are "
-      "not vertical; without "
-      "strain {} is one polynomial of degree {} in x on each",
+      "not vertical; without strain {} is one polynomial of degree {} in x on each",
       std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma), components.count,
       components.count == 1 ? "" : "s", element.name(), element.degree());
   LockingLoss energy;
@@ -39,9 +38,10 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
     report.diagnosis += std::string("; nothing is known of what it costs (") + error.what() + ")";
     return report;
   }
-  const double estimate = energy.share(energy.estimate),
-               lower_bound = energy.share(energy.lower_bound);
-  const bool locks = estimate >= significance, by_proof = !locks || lower_bound >= significance;
+  const double estimate = energy.share(energy.estimate);
+  const double lower_bound = energy.share(energy.lower_bound);
+  const bool locks = estimate >= significance;
+  const bool by_proof = !locks || lower_bound >= significance;
   if (by_proof) report.lost = lower_bound;
   report.estimate = estimate;
   report.reference = energy.reference;
@@ -54,13 +54,14 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
     return report;
   }
   report.diagnosis += fmt::format("; at epsilon = {:g} it locks", *scene.epsilon());
+  const double share = by_proof ? lower_bound : estimate;
+  const double per_cent = std::min(std::floor(100 * share), 99.0);
+  const char* const how_sure = by_proof ? "at least" : "about";
+  const char* const origin = by_proof ? "proved" : "by a second solve, with columns";
   report.warning = fmt::format(
       "{} locks in this layer: it loses {} {:.0f} % of the energy that the layer's motion releases "
-      "({}); "
-      "remedy: element = \"CR\", or a layer in columns (kind = \"layered\")",
-      element.name(), by_proof ? "at least" : "about",
-      std::min(std::floor(100 * (by_proof ? lower_bound : estimate)), 99.0),
-      by_proof ? "proved" : "by a second solve, with columns");
+      "({}); remedy: element = \"CR\", or a layer in columns (kind = \"layered\")",
+      element.name(), how_sure, per_cent, origin);
   return report;
 }
 

@@ -18,7 +18,9 @@ CodePoint first_code_point(std::string_view text) {
   const auto first = static_cast<unsigned char>(text[0]);
   if (first < 0x80) return {first, 1};
   // 110xxxxx, 1110xxxx and 11110xxx begin a character of 2, 3 and 4 bytes; 10xxxxxx continues one
-  const std::size_t bytes = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  std::size_t bytes = 2;
+  if (first >= 0xe0) bytes = 3;
+  if (first >= 0xf0) bytes = 4;
   if (first < 0xc0 || first >= 0xf8 || text.size() < bytes) return {};
   auto value = static_cast<char32_t>(first & (0x7f >> bytes));
   for (std::size_t i = 1; i < bytes; ++i) {

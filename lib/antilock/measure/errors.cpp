@@ -43,7 +43,10 @@ Eigen::MatrixXd layer_stress_values(const Element& element, const Eigen::MatrixX
 }
 
 /// The larger of the two, and no number where one of them is none: std::max would pass over it.
-double larger(double a, double b) { return a >= b ? a : b > a ? b : a + b; }
+double larger(double a, double b) {
+  if (std::isnan(a) || std::isnan(b)) return a + b;
+  return std::max(a, b);
+}
 
 /// u of the space, p of its layer.
 void check_solution(const Space& space, const Solution& solution) {

@@ -300,7 +300,10 @@ class Scanner {
   int line_ = 1;
 };
 
-char closing_of(char opening) { return opening == '(' ? ')' : opening == '[' ? ']' : '}'; }
+char closing_of(char opening) {
+  if (opening == '(') return ')';
+  return opening == '[' ? ']' : '}';
+}
 
 /// Finds the pairs of brackets, and where statements begin: outside of all brackets, behind `;` or
 /// a closed bracket.
@@ -557,7 +560,8 @@ class Rewriter {
     const bool loop = token.is("Loop");
     const bool behind_its_kind = i > 0 && (is(i - 1, "Line") || is(i - 1, "Curve") ||
                                            is(i - 1, "Wire") || is(i - 1, "Surface"));
-    if (loop ? !behind_its_kind || !is(i + 1, "(") : !is(i + 1, "{"))
+    const bool is_in_place = loop ? behind_its_kind && is(i + 1, "(") : is(i + 1, "{");
+    if (!is_in_place)
       refuse(token.line, token.text,
              loop ? "is no variable; accepted: Line Loop(...), Curve Loop(...), Surface Loop(...)"
                   : "is no variable; accepted: " + token.text + " { ... }");

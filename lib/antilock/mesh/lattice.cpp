@@ -27,26 +27,34 @@ TriangleMesh lattice(int cells, int strips, bool upright) {
       for (int i = 1; i <= cells; ++i) along.push_back(static_cast<double>(i) / cells);
     }
     lines.emplace_back();
-    const double across = static_cast<double>(j) / (j < 0 ? strips : cells) + (upright ? 1 : 0);
+    const int divisions = j < 0 ? strips : cells;
+    const double level = static_cast<double>(j) / divisions;  // y across; x - 1 upright
     for (const double s : along) {
       lines.back().push_back(static_cast<int>(vertices.size()));
-      vertices.emplace_back(upright ? across : s, upright ? s : across);
+      if (upright)
+        vertices.emplace_back(level + 1, s);
+      else
+        vertices.emplace_back(s, level);
     }
   }
   std::vector<Eigen::RowVector3i> triangles;
   for (std::size_t j = 0; j + 1 < lines.size(); ++j) {
     const std::vector<int>&one = lines[j], &next = lines[j + 1];
-    const auto middle = [&](const std::vector<int>& line, std::size_t i) {
-      return vertices[line[i]](upright ? 1 : 0) + vertices[line[i + 1]](upright ? 1 : 0);
+    const int along = upright ? 1 : 0;  // the coordinate that grows along a line
+    const auto twice_the_middle = [&](const std::vector<int>& line, std::size_t i) {
+      return vertices[line[i]](along) + vertices[line[i + 1]](along);
     };
     for (std::size_t l = 0, u = 0;
          l + 1 < one.size() || u + 1 < next.size();) {  // whose edge has its middle first
       const bool ours =
-          u + 1 == next.size() || (l + 1 < one.size() && middle(one, l) <= middle(next, u));
+          u + 1 == next.size() ||
+          (l + 1 < one.size() && twice_the_middle(one, l) <= twice_the_middle(next, u));
       const int third = ours ? one[l + 1] : next[u + 1];
-      upright ? triangles.emplace_back(one[l], next[u], third)
-              : triangles.emplace_back(one[l], third, next[u]);
-      ours ? ++l : ++u;
+      if (upright)
+        triangles.emplace_back(one[l], next[u], third);
+      else
+        triangles.emplace_back(one[l], third, next[u]);
+      ++(ours ? l : u);
     }
   }
   return tag_by_position(

@@ -38,8 +38,8 @@ double penalty_parameter(const VariationalInequality& problem, std::optional<dou
   if (penalty && !(*penalty > 0 && std::isfinite(*penalty)))
     throw Error(fmt::format("solve: penalty = {}; accepted: a positive number", *penalty));
   const bool only_fixed_rows = problem.parametric_row_count() == 0 && problem.b.rows() > 0;
-  return std::max(only_fixed_rows ? 0 : problem.compliance,
-                  penalty ? *penalty : choose_penalty(problem));
+  const double compliance = only_fixed_rows ? 0 : problem.compliance;
+  return std::max(compliance, penalty ? *penalty : choose_penalty(problem));
 }
 
 }  // namespace antilock

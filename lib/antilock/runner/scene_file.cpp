@@ -517,14 +517,16 @@ void check_together(const Section& root, const Scene& scene, const MeshRequest& 
     root.refuse("mesh.geometry",
                 "does not go with solver = \"petsc\"; accepted: \"active-set\", \"uzawa\"");
   if (!petsc && !method.accuracy) return;
-  const std::string beyond = !petsc           ? scene.beyond_the_certificate()
-                             : root.has("at") ? "points"
-                                              : scene.beyond_the_paper();
-  if (!beyond.empty())
-    root.refuse(
-        petsc ? "method.solver" : "method.accuracy",
-        fmt::format("does not go with {}; accepted: {}", beyond,
-                    petsc ? "\"active-set\", \"uzawa\"" : "a scene without it, or no accuracy"));
+  if (petsc) {
+    const std::string beyond = root.has("at") ? "points" : scene.beyond_the_paper();
+    if (!beyond.empty())
+      root.refuse("method.solver",
+                  "does not go with " + beyond + "; accepted: \"active-set\", \"uzawa\"");
+    return;
+  }
+  if (const std::string beyond = scene.beyond_the_certificate(); !beyond.empty())
+    root.refuse("method.accuracy",
+                "does not go with " + beyond + "; accepted: a scene without it, or no accuracy");
 }
 
 void check_model(const Section&, const AntiPlaneModel&, const Scene&, const MethodRequest&) {}

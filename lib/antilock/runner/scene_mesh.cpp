@@ -242,10 +242,10 @@ TriangleMesh checked_mesh(const SceneFile& file) {
   const Domain domain{file.scene.layer_depth()};
   const Geometry named = named_geometry(file);
   try {
-    return kind == "structured"     ? structured_mesh(cells, domain)
-           : kind == "unstructured" ? unstructured_mesh(cells, domain)
-           : kind == "layered"      ? layered_mesh(cells, file.scene.epsilon().value_or(1))
-                                    : read_mesh_of(file, named);
+    if (kind == "structured") return structured_mesh(cells, domain);
+    if (kind == "unstructured") return unstructured_mesh(cells, domain);
+    if (kind == "layered") return layered_mesh(cells, file.scene.epsilon().value_or(1));
+    return read_mesh_of(file, named);
   } catch (const InputError&) {
     throw;
   } catch (const MeshError& error) {

@@ -185,8 +185,12 @@ std::string summary_text(const SceneFile& file, const SceneSummary& summary,
   for (Eigen::Index i = 0; i < summary.at.rows(); ++i) {
     const auto& row = summary.at.row(i);
     Json here = {{"x", row(0)}, {"y", row(1)}};
-    for (Eigen::Index k = 2; k < row.size(); ++k)
-      here[row.size() == 3 ? "u" : k == 2 ? "u_x" : "u_y"] = row(k);
+    if (row.size() == 3) {
+      here["u"] = row(2);
+    } else {
+      here["u_x"] = row(2);
+      here["u_y"] = row(3);
+    }
     s["at"].push_back(here);
   }
   if (certified != nullptr) s["certificate"] = certificate(file.method, *certified);

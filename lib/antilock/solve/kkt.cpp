@@ -128,8 +128,8 @@ void add_bound(Kkt& kkt, const BoundLimits& bounds, int i, double value, double 
   const bool soft = std::isfinite(limit);
   // between two bounds either sign of lambda is right, and each side answers for its own
   const bool two = std::isfinite(lower) && std::isfinite(upper);
-  const double up = two ? std::max(lambda, 0.0) : lambda,
-               down = two ? std::max(-lambda, 0.0) : -lambda;
+  const double up = two ? std::max(lambda, 0.0) : lambda;
+  const double down = two ? std::max(-lambda, 0.0) : -lambda;
   const auto side = [&](double bound, double gap, double pressure) {
     if (!std::isfinite(bound)) return;
     const double scale =
@@ -139,8 +139,8 @@ void add_bound(Kkt& kkt, const BoundLimits& bounds, int i, double value, double 
     // beyond a bound, the part of its limit that it does not use; a limit far above the forces at
     // work is not reached by round-off
     const bool beyond = soft && gap < 0;
-    const double idle = beyond ? limit - pressure : pressure,
-                 unit = beyond ? std::max(force, limit) : force;
+    const double idle = beyond ? limit - pressure : pressure;
+    const double unit = beyond ? std::max(force, limit) : force;
     kkt.complementarity =
         max_or_nan(kkt.complementarity, ratio(std::abs(idle * gap), scale * unit));
   };

@@ -110,7 +110,10 @@ class CondensedUzawa {
     const double limit = bounds.force_limit(i);
     const bool low = f >= q + limit, high = f <= q - limit;
     if (low || high) {
-      result.lambda(i) = low && high ? 0 : low ? limit : -limit;
+      if (low && high)
+        result.lambda(i) = 0;
+      else
+        result.lambda(i) = low ? limit : -limit;
       if (low && high && result.v(i) >= bounds.lower(i) && result.v(i) <= bounds.upper(i))
         return BoundStatus::inactive;
       return low && (!high || result.v(i) < bounds.lower(i)) ? BoundStatus::slip_below

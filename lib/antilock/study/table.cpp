@@ -213,8 +213,8 @@ std::string Table::text(int digits) const {
 }
 
 void Table::print(const std::string& title, int digits) const {
-  fmt::print("\n{}{}{}\n", title.empty() ? "" : "  " + title, title.empty() ? "" : "\n",
-             text(digits));
+  const std::string heading = title.empty() ? "" : "  " + title + "\n";
+  fmt::print("\n{}{}\n", heading, text(digits));
   std::fflush(stdout);
 }
 
