@@ -125,7 +125,8 @@ struct Asked {
 
 /// s / epsilon^2, as a quotient where it is beyond double precision.
 std::string across(const StiffLayer& layer) {
-  const double square = layer.epsilon * layer.epsilon, stiffness = layer.s / square;
+  const double square = layer.epsilon * layer.epsilon;
+  const double stiffness = layer.s / square;
   return square > 0 && std::isfinite(stiffness)
              ? fmt::format("{:g}", stiffness)
              : fmt::format("{:g} / {:g}^2", layer.s, layer.epsilon);

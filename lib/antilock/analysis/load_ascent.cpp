@@ -30,7 +30,8 @@ double ascend(const std::function<double(const Eigen::VectorXd&)>& error,
   double best = 0;
   for (const Eigen::VectorXd& start : starts) {
     Eigen::VectorXd at = start.normalized();
-    double value = error(at), step = 0.3;
+    double value = error(at);
+    double step = 0.3;
     for (int i = 0; i < steps && step > 0.02; ++i) {
       Eigen::VectorXd gradient(at.size());
       for (Eigen::Index k = 0; k < at.size(); ++k)

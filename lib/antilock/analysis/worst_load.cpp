@@ -33,8 +33,8 @@ double energy_of_wave(int k) {
 }  // namespace
 
 double loss_of_wave(int k) {
-  const double a = k * std::numbers::pi,
-               square = (1 / std::tanh(a) - a / std::pow(std::sinh(a), 2)) / (2 * a);
+  const double a = k * std::numbers::pi;
+  const double square = (1 / std::tanh(a) - a / std::pow(std::sinh(a), 2)) / (2 * a);
   return std::sqrt(square / energy_of_wave(k));
 }
 
@@ -167,7 +167,8 @@ Eigen::VectorXd ErrorForm::answer(const Eigen::VectorXd& load) {
 
 Eigen::VectorXd ErrorForm::apply(const Eigen::VectorXd& f) {
   const Eigen::VectorXd exact = modes_.response(f, epsilon_);  // asks for the size of f
-  const Eigen::VectorXd load = loads_.transpose() * f, u = answer(load)(active_);
+  const Eigen::VectorXd load = loads_.transpose() * f;
+  const Eigen::VectorXd u = answer(load)(active_);
   if (space_.element().conforming()) return exact - loads_ * u;
   return exact + loads_ * (u - interpolant(f)) - interpolant_transposed(load);
 }

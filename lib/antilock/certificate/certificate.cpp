@@ -181,8 +181,9 @@ struct Sums {
 /// |v|_a^2 of the columns.
 double column_norm2(const ExtrudedP1Function& columns, const FluxLaw& law) {
   double norm2 = 0;
-  for (int t = columns.first_triangle(), k = 0; t < columns.mesh().triangle_count(); ++t, ++k)
-    norm2 += columns.mesh().area(t) * law.squared(law.stiffness * columns.flux_of(k));
+  const int first = columns.first_triangle();
+  for (int t = first; t < columns.mesh().triangle_count(); ++t)
+    norm2 += columns.mesh().area(t) * law.squared(law.stiffness * columns.flux_of(t - first));
   return norm2;
 }
 

@@ -129,9 +129,10 @@ std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh
     level = std::move(finer);
     report.assemble += watch.lap();
     LoopOptions loop = options.loop;
-    if (!last)
-      loop.tolerance = std::max(loop.tolerance, 1e-6),
-      loop.residual = std::max(loop.residual, 1e-4);  // a start, no answer
+    if (!last) {  // a start, no answer
+      loop.tolerance = std::max(loop.tolerance, 1e-6);
+      loop.residual = std::max(loop.residual, 1e-4);
+    }
     if (l > first) loop.smoothings = smoothings;
     report.last = contact_loop(level->problem, level->state, loop);
     report.loops.push_back(report.last);

@@ -72,7 +72,9 @@ double ExactBeam::rotation(double x) const {
   if (x <= c_) return -(load_ * x * x * x / 6 + v0_ * x * x / 2) + a_ * x;
   if (epsilon_ == 0) return 0;
   // sinh((1/2 - x)/r) / sinh((1/2 - c)/r) with decaying exponentials
-  const double r = std::sqrt(epsilon_), far = (0.5 - c_) / r, here = (0.5 - x) / r;
+  const double r = std::sqrt(epsilon_);
+  const double far = (0.5 - c_) / r;
+  const double here = (0.5 - x) / r;
   return d_ * std::exp(here - far) * std::expm1(-2 * here) / std::expm1(-2 * far);
 }
 

@@ -32,7 +32,9 @@ double bessel_ratio(double z) {
 }  // namespace
 
 ExactPlate::Free ExactPlate::free_part(double c) const {
-  const double t = std::sqrt(epsilon_), q = load_, l = std::log(c);
+  const double t = std::sqrt(epsilon_);
+  const double q = load_;
+  const double l = std::log(c);
   const double s = t > 0 ? t * bessel_ratio(c / t) - epsilon_ / c : 0;
   Eigen::Matrix3d m;  // theta(1), w'(c), theta'(c) + s Q(c), in A, B, C
   m << 0.25, 0.5, 1,  //

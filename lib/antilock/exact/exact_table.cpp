@@ -180,7 +180,8 @@ ExactTable::ExactTable(const ExactSolution& exact, int finest_cells) {
         fmt::format("exact table: load with wave number k = {}; accepted: up to {} (sum the series "
                     "of ExactSolution instead)",
                     waves, most_waves));
-  const double epsilon = data.epsilon, longest = smooth_step / (waves * std::numbers::pi);
+  const double epsilon = data.epsilon;
+  const double longest = smooth_step / (waves * std::numbers::pi);
   const double finest = 1.0 / finest_cells;  // between rows, next to Gamma_C
   const auto cells = [&](double distance) {
     const double wanted = std::max(64.0 * waves, std::min(16 / distance, double(finest_cells)));

@@ -87,7 +87,8 @@ SineRow body_row(const ExactSolution::Data& exact, double y) {
 // sinh(kappa) plus its value on Gamma_C times sinh(kappa (1-eta)) / sinh(kappa), eta = 1 + y.
 // Nothing divides by epsilon: at 0 both are linear in y.
 SineRow layer_row(const ExactSolution::Data& exact, double y) {
-  const double eta = 1 + y, step = exact.epsilon * std::numbers::pi;
+  const double eta = 1 + y;
+  const double step = exact.epsilon * std::numbers::pi;
   SineRow row = empty_row(step * std::min(eta, -y), exact.on_sigma.size());
   Powers from_gamma_c{std::exp(-step * eta)}, from_sigma{std::exp(step * y)};
   Eigen::Index k = 1;

@@ -112,8 +112,8 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
     }
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     double& energy2 = errors.by_triangle(t);
-    const bool in_layer = mesh.region[t] == Region::layer,
-               stiff = in_layer && solution.p.size() > 0;
+    const bool in_layer = mesh.region[t] == Region::layer;
+    const bool stiff = in_layer && solution.p.size() > 0;
     for (Eigen::Index q = 0; q < points; ++q) {
       const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
       const double weight = rule.weights(q) * mesh.area(t);

@@ -67,8 +67,10 @@ Eigen::VectorXd pressure(const Coating& coating, const VectorSpace& space, const
   Eigen::Index row = 0;  // of each point of the coating the first of two
   for (int t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.region[t] == Region::layer)
-      for (Eigen::Index q = 0; q < points; ++q, row += 2)
+      for (Eigen::Index q = 0; q < points; ++q) {
         pressure(t) -= (coating.layer.lambda + 2 * coating.layer.mu) * weights(q) * p(row);
+        row += 2;
+      }
   return pressure;
 }
 

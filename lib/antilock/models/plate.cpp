@@ -58,8 +58,9 @@ void require_rim_above(const Plate& plate, const TriangleMesh& mesh) {
       if (const double size = std::abs(gap(corner)); std::isfinite(size))
         around = std::max(around, size);
     for (const int corner : mesh.edges.row(e)) {
-      const double x = mesh.vertices(corner, 0), y = mesh.vertices(corner, 1),
-                   rim = plate.boundary_deflection(x, y);
+      const double x = mesh.vertices(corner, 0);
+      const double y = mesh.vertices(corner, 1);
+      const double rim = plate.boundary_deflection(x, y);
       if (rim + gap(corner) < -1e-6 * around)
         throw Error(fmt::format(
             "plate: the rim is held at w = {:.6g} in ({:.6g}, {:.6g}), below the obstacle at "

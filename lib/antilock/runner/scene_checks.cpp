@@ -178,7 +178,8 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
     for (const int v : mesh.edges.row(e)) {
-      const double x = mesh.vertices(v, 0), scale = std::max(largest, std::abs(values(v)));
+      const double x = mesh.vertices(v, 0);
+      const double scale = std::max(largest, std::abs(values(v)));
       const double round_off =
           std::min(1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))), 1e-6 * scale);
       for (const auto& [name, bound, sign] :
@@ -366,7 +367,8 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
       for (const auto& [name, bound, sign] :
            {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
         if (*bound) {
-          const double at = (*bound)(x), depth = sign * u - at;
+          const double at = (*bound)(x);
+          const double depth = sign * u - at;
           largest = std::max(largest, std::abs(at));
           if (depth > deepest) std::tie(deepest, where, missed) = std::tuple(depth, x, name);
         }

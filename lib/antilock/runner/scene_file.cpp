@@ -498,8 +498,8 @@ MethodRequest read_method(const Section& section) {
 /// What one section leaves out because of another.
 void check_together(const Section& root, const Scene& scene, const MeshRequest& mesh,
                     const MethodRequest& method) {
-  const bool ventcel = std::holds_alternative<VentcelLayer>(scene.layer()),
-             petsc = method.solver == "petsc";
+  const bool ventcel = std::holds_alternative<VentcelLayer>(scene.layer());
+  const bool petsc = method.solver == "petsc";
   if (mesh.kind == "layered" && !std::holds_alternative<StiffLayer>(scene.layer()))
     root.refuse("mesh.kind",
                 "\"layered\" is the mesh of the scaled layer, which this scene does not have; "

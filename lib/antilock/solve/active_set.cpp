@@ -42,8 +42,8 @@ class IteratedPenalty {
       const double largest = u_.high.lpNorm<Eigen::Infinity>(),
                    moved = du.lpNorm<Eigen::Infinity>();
       if (correction == 0) result_.penalised_max_u = largest;
-      const double rho = contraction(moved),
-                   next = std::max(rho * moved, acceleration_.next_affine_image_step());
+      const double rho = contraction(moved);
+      const double next = std::max(rho * moved, acceleration_.next_affine_image_step());
       ForwardError now = forward_error(problem_, u_, next, constraint_residual_, rho,
                                        result_.penalised_max_u, options_);
       // a load just above a force limit shows in the second residual, and not in the first
@@ -165,8 +165,8 @@ class IteratedPenalty {
   /// Takes a penalty that is smaller, but no smaller than the compliance, nor so small that the
   /// factor keeps no digits of A1.
   void reduce_penalty() {
-    const double before = factor_.delta(),
-                 compliance = problem_.parametric_row_count() > 0 ? problem_.compliance : 0;
+    const double before = factor_.delta();
+    const double compliance = problem_.parametric_row_count() > 0 ? problem_.compliance : 0;
     const double smallest = defaults::round_off * stiffness_ratio(problem_).value();
     const double delta =
         std::max({before / defaults::penalty_reduction, compliance, std::min(before, smallest)});

@@ -157,7 +157,8 @@ class CholmodCholesky final : public SparseCholesky {
 
  private:
   void analyse_with_trailing_rows(cholmod_sparse& whole, int trailing_count) {
-    const int size = static_cast<int>(whole.ncol), interior = size - trailing_count;
+    const int size = static_cast<int>(whole.ncol);
+    const int interior = size - trailing_count;
     std::vector<int> order(size), group(size, 0);
     std::fill(group.begin() + interior, group.end(),
               interior > 0 ? 1 : 0);  // CAMD wants groups below `size`

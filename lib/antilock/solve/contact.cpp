@@ -57,14 +57,15 @@ void projected_search(const ContactSystem& system, std::vector<Breakpoint>& brea
   const Eigen::VectorXd direction = w - v;
   const std::vector<int>& dof_of = system.bounded();
   for (Breakpoint& b : breakpoints) {
-    const double full = direction(dof_of[b.bound]), step = (b.value - v(dof_of[b.bound])) / full;
+    const double full = direction(dof_of[b.bound]);
+    const double step = (b.value - v(dof_of[b.bound])) / full;
     b.step = full != 0 && step > 0 ? std::min(step, 1.0)
                                    : 0;  // 0 where it is not a number, so that the loop ends
   }
   std::sort(breakpoints.begin(), breakpoints.end(),
             [](const Breakpoint& a, const Breakpoint& b) { return a.step < b.step; });
-  const double first = breakpoints.front().step,
-               at_first = (1 - first) * (1 - first) * system.energy_norm_squared(direction);
+  const double first = breakpoints.front().step;
+  const double at_first = (1 - first) * (1 - first) * system.energy_norm_squared(direction);
   Eigen::VectorXd next;
   double step = 1;
   for (std::size_t stopped = breakpoints.size();; step = breakpoints[stopped - 1].step) {

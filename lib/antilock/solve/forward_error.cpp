@@ -13,7 +13,8 @@
 namespace antilock {
 namespace {
 
-constexpr double eps = defaults::eps, infinite = std::numeric_limits<double>::infinity();
+constexpr double eps = defaults::eps;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Whether B u = 0 in the rows of compliance 0, the prescribed values and the bounds may exclude
 /// each other. They do not where u = 0 is admissible.
@@ -137,7 +138,8 @@ ConstraintDefect constraint_defect(const VariationalInequality& problem,
       constraint_residual.isZero(0))
     return defect;
   const Eigen::VectorXd compliance = problem.compliances();
-  Eigen::MatrixXd b = problem.b, step(rows, columns + rows);
+  Eigen::MatrixXd b = problem.b;
+  Eigen::MatrixXd step(rows, columns + rows);
   for (const int i : problem.dirichlet_dofs) b.col(i).setZero();
   const Eigen::ArrayXd stiffness =
       problem.a1.diagonal().cwiseAbs() + b.cwiseAbs2().transpose() * problem.m;

@@ -83,8 +83,8 @@ void add_bounds(Kkt& kkt, const Bounds& bounds, const Solution& solution, double
 
 KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u,
                    const Eigen::VectorXd& p) {
-  const Eigen::VectorXd stress = problem.m.cwiseProduct(p),
-                        r2 = problem.compliances().cwiseProduct(p) - problem.b * u;
+  const Eigen::VectorXd stress = problem.m.cwiseProduct(p);
+  const Eigen::VectorXd r2 = problem.compliances().cwiseProduct(p) - problem.b * u;
   // entry by entry: Eigen's products would copy A1 and B, beside the factor
   KktParts parts{problem.load - problem.a1 * u - problem.b.transpose() * stress,
                  problem.load.cwiseAbs(), problem.a1.diagonal().cwiseAbs()};

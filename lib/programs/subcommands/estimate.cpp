@@ -202,11 +202,13 @@ std::optional<double> a_priori_bound(const Space& space, const Field& f) {
   const TriangleMesh& mesh = space.mesh();
   double squared = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    bool vertical = false, horizontal = false;
+    bool vertical = false;
+    bool horizontal = false;
     for (int i = 0; i < 3; ++i) {
       const Eigen::RowVector2d edge = mesh.vertices.row(mesh.triangles(t, (i + 1) % 3)) -
                                       mesh.vertices.row(mesh.triangles(t, i));
-      vertical |= edge(0) == 0, horizontal |= edge(1) == 0;
+      vertical |= edge(0) == 0;
+      horizontal |= edge(1) == 0;
     }
     if (!vertical || !horizontal) return {};
     if (mesh.region[t] != Region::body) continue;

@@ -28,8 +28,9 @@ ExtrudedP1Function::Place ExtrudedP1Function::locate(const Eigen::Vector2d& x) c
   if (column != columns_.begin()) --column;
   const double depth = -x(1) * rows_;
   const int row = std::clamp(static_cast<int>(depth), 0, rows_ - 1);
-  const double width = column->right - column->left, s = (x(0) - column->left) / width,
-               t = row + 1 - depth;
+  const double width = column->right - column->left;
+  const double s = (x(0) - column->left) / width;
+  const double t = row + 1 - depth;
   return {column->triangle + 2 * row + (t > s ? 1 : 0), width, s,
           t};  // the diagonal / : the first triangle lies below it
 }
@@ -79,8 +80,8 @@ double ExtrudedP1Function::mean(const Eigen::Vector2d& a, const Eigen::Vector2d&
     // inside one cell, where v is affine on both sides of the diagonal s = t
     const double from = cuts[k - 1], to = cuts[k], half = (to - from) / 2, middle = from + half;
     const Place place = locate(a + middle * along);
-    const double off = place.t - place.s,
-                 change = half * (along(1) * rows_ - along(0) / place.width);
+    const double off = place.t - place.s;
+    const double change = half * (along(1) * rows_ - along(0) / place.width);
     const double crossing = std::abs(off) < std::abs(change) ? middle - off / change * half : to;
     for (const auto& [p, q] : {std::pair(from, crossing), {crossing, to}})
       sum += (q - p) * value(a + (p + q) / 2 * along);

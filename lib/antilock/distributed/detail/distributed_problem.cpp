@@ -41,8 +41,8 @@ DistributedProblem::DistributedProblem(const Scene& scene, const Space& space,
     if (!scene.contact()) return;
     for (int place = 0; place < rows_.owned(); ++place) {
       if (!rows_.contact(rows_.unknown(place))) continue;
-      const double x = space.dof_coordinates()(rows_.unknown(place), 0),
-                   gap = scene.contact()->gap(x);
+      const double x = space.dof_coordinates()(rows_.unknown(place), 0);
+      const double gap = scene.contact()->gap(x);
       if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
       lower_(place) = -gap;
     }
