@@ -16,6 +16,7 @@ namespace antilock {
 ///   least `significance`. Otherwise it gives the estimate, and `lost` is empty.
 ///
 /// It does not throw Error where locking_loss does. The diagnosis then says why there is no number.
+/// Section 10 of tutorials/guides/locking_loss.md lists all cases.
 std::optional<LockingReport> report_locking(const Scene& scene, const Result& result);
 
 }  // namespace antilock
