@@ -15,6 +15,7 @@ from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tutorials/book"))
+from course import minutes  # noqa: E402
 from library import EXAMPLES, Library  # noqa: E402
 from literate import STILLS  # noqa: E402
 from pages import EXTRA  # noqa: E402
@@ -84,6 +85,23 @@ int main() {
 int main() {}
 """,
 }
+COURSE = """[[part]]
+title = "Basics"
+kind = "course"
+about = "Read both."
+chapters = [
+  "00_start",
+  "07_middle",
+]
+
+[[part]]
+title = "More"
+kind = "track"
+about = "Read it."
+chapters = [
+  "27_later",
+]
+"""
 EXAMPLE = "TEST(SolveTo, TakesTheVentcelLayerForTheRigidLimit) {\n  solve_to();\n}\nTEST(SolveTo, Other) {\n}\n"
 CAPTION = 'A string (a "cable"), before, and after: 1 < 2.'
 
@@ -102,6 +120,7 @@ def small_repository(root):
     for stem, text in CHAPTERS.items():
         (root / f"tutorials/{stem}").mkdir()
         (root / f"tutorials/{stem}/{stem}.cpp").write_text(text)
+    (root / "tutorials/book/course.toml").write_text(COURSE)
     (root / "tutorials/book/wasm").mkdir()
     (root / "tutorials/book/wasm/runs.csv").write_text("command,seconds,MiB,meshes\n00_start,0.1,,\n07_middle,1.2,70,\n07_middle --cells 4,0.6,,\n"
                                                        "07_middle --exercise 1,40,,\n")
@@ -168,10 +187,29 @@ class Pages(unittest.TestCase):
 
     # ---- order
 
-    def test_the_index_has_every_chapter_once_in_the_order_of_their_numbers(self):
-        self.assertEqual(re.findall(r"<(\d\d_\w+)>", self.page("index")), sorted(CHAPTERS))
-        captions = re.findall(r":caption: (\w+) ", self.page("index"))
-        self.assertEqual(captions, ["I", "II", "V", "To"])  # of the five parts those that have a chapter
+    def test_the_index_has_every_chapter_once_in_the_order_of_the_parts(self):
+        index = self.page("index")
+        self.assertEqual(re.findall(r"<(\d\d_\w+)>", index), ["00_start", "07_middle", "27_later"])
+        self.assertEqual(re.findall(r":caption: (\w+)", index), ["Basics", "More", "To"])
+        self.assertRegex(index, r"(?s)## Basics: some 0 hours\n\nRead both\. It needs no other chapter\..*\[07 A second chapter\]\(07_middle\.md\) \| 5 \|"
+                                r".*## More\n\nRead it\. About 5 minutes\. It needs the course\. Nothing later needs it\.")
+
+    def test_a_chapter_says_where_it_stands_and_how_long_it_takes(self):
+        self.assertIn("**Basics, chapter 2 of 2.** About 5 minutes.", self.page("07_middle"))
+        self.assertIn("**More.** About 5 minutes.", self.page("27_later"))
+
+    def test_minutes_are_those_of_words_formulas_lines_and_runs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = Path(folder) / "a.cpp"
+            def measured(text):
+                source.write_text(text)
+                return minutes(source)
+            self.assertEqual(measured("// # A\n//\n// " + "word " * 1000), 20)
+            self.assertEqual(measured("// " + "$x^2$ " * 100), 30)
+            self.assertEqual(measured("// $$ x = y $$\n//\n" * 10), 30)
+            self.assertEqual(measured("// # A\n" + "int a;\n\n" * 200), 20)
+            self.assertEqual(measured("// # A\n//\n" + "// Run: a --cells 4    words that take no time\n" * 10), 20)
+            self.assertEqual(measured("// # A\n"), 5)
 
     def test_a_chapter_leads_to_the_next_whatever_numbers_are_free(self):
         stems = sorted(CHAPTERS)
@@ -333,6 +371,16 @@ class Pages(unittest.TestCase):
             self.refused("07_middle --cells 8 has no row in wasm/runs.csv", "tutorials/07_middle/07_middle.cpp", "07_middle --cells 8", self.pages, "07_middle --cells 4")
         with self.subTest("answer"):
             self.refused("07_middle.cpp: exercise 2 has no answer", "tutorials/07_middle/answers.hpp", "**3.**", self.pages, "**2.**")
+        swapped = COURSE.replace("07_middle", "28_more").replace("27_later", "07_middle").replace("28_more", "27_later")
+        for says, table in (
+                ("27_later stands in it 0 times; accepted: once", COURSE.replace("27_later", "28_more")),
+                ("00_start stands in it 2 times; accepted: once", COURSE.replace('"27_later"', '"27_later", "00_start"')),
+                ("there is no chapter 28_more", COURSE.replace('"27_later"', '"27_later", "28_more"')),
+                ("part More: kind path is unknown; accepted: course, track, appendix", COURSE.replace('"track"', '"path"')),
+                ("part Basics: unknown key abuot; accepted: title", COURSE.replace("about", "abuot = 1\nabout", 1)),
+                ("the course needs chapter 07, which is none of its chapters", swapped)):
+            with self.subTest(course=says):
+                self.refused(says, "tutorials/book/course.toml", table, self.pages, COURSE)
         with self.subTest("title"):
             self.refused("accepted: at most six", chapter, "// # A title of more than six words", self.pages, "// # A first chapter")
 

@@ -7,13 +7,18 @@
 // Run: 05_p1_structured --exercise 2
 //
 // Needs: [02](../02_meshes/02_meshes.cpp) (kernel, structured mesh),
-// [03](../03_by_hand/03_by_hand.cpp) (split form, layer stress),
-// [04](../04_reference_solution/04_reference_solution.cpp) (the truth, the library in ten
-// lines).
+// [03](../03_by_hand/03_by_hand.cpp) (split form, layer stress).
 //
 // **The picture.** Figure 5, on the mesh of Figure 3: the hill, the valley and the ridge of
 // the reference solution. This is the method that works. The question of this chapter is
 // why it works, at every $ε$.
+//
+// **Two things that every chapter uses from here on.** Errors are measured against the
+// exact solution of (23). It is a series of sines without a mesh, and
+// [chapter 04](../04_reference_solution/04_reference_solution.cpp) derives it. The programs
+// use the library. Its words are explained there as well, in ten lines: a *scene* is the
+// problem, a *method* is an element with a family of meshes, a *space* is a method at one
+// $h$, and a *result* holds the solution.
 //
 // **Predict.** (a) The same mesh serves $ε = 1$ and $ε = 10^{-12}$. By what factor do the
 // errors differ? (b) As $ε → 0$ also $∂_y u → 0$ in the layer. What, then, carries the pull

@@ -5,8 +5,7 @@
 // Run: 10_limits --exercise 1
 //
 // Needs: [01](../01_domain/01_domain.cpp) ((22), (23)), [03](../03_by_hand/03_by_hand.cpp)
-// ($p$), [04](../04_reference_solution/04_reference_solution.cpp) (the symbol),
-// [05](../05_p1_structured/05_p1_structured.cpp) (weak limits).
+// ($p$), [05](../05_p1_structured/05_p1_structured.cpp) (weak limits).
 //
 // **The picture.** A layer of thickness 0.1 in three models: as it is (22), stretched (23),
 // and with its limit in its place (25), which is the subject of this chapter. The first two
@@ -74,14 +73,16 @@
 // $ε^{-2} a_y^-(u^ε, u^ε) = ε^2 ‖p‖^2$, with the norm of $L^2$ in the layer: this tends to
 // 0, too.
 //
-// **How fast?** The theorem does not say. Chapter 04's symbol does. What follows is an
-// estimate and not a proof: it takes the same contact set for both solutions. A layer of
-// thickness ε answers to the wave $\sin kπx$ on $Γ_C$ like the limit but for a share
-// $∼ (ε k)^2$, and from $k ∼ 1/ε$ on quite differently. How much of $u^0$ is in such waves?
-// Where contact ends its pressure jumps, and the waves of a jump fall like $k^{-1}$. The
-// pressure is about $s_k$ times the displacement, and $s_k$ grows like $k^2$. So the waves
-// of the displacement on $Γ_C$ fall like $k^{-3}$. In the square of the norm wave $k$
-// counts $k^2 (k^{-3})^2 = k^{-4}$. Together
+// **How fast?** The theorem does not say. The *symbol* does: push the layer from below with
+// the pressure $\sin kπx$, and let $s_k$ be this pressure over the displacement. (Chapter
+// 04 computes it.) What follows is an estimate and not a proof: it takes the same contact
+// set for both solutions. A layer of thickness ε answers to the wave $\sin kπx$ on $Γ_C$
+// like the limit but for a share $∼ (ε k)^2$, and from $k ∼ 1/ε$ on quite differently. How
+// much of $u^0$ is in such waves? Where contact ends its pressure jumps, and the waves of a
+// jump fall like $k^{-1}$. The pressure is about $s_k$ times the displacement. A rigid
+// layer resists like a string, so $s_k$ grows like $k^2$: two derivatives of a sine are
+// $k^2$ times it. So the waves of the displacement on $Γ_C$ fall like $k^{-3}$. In the
+// square of the norm wave $k$ counts $k^2 (k^{-3})^2 = k^{-4}$. Together
 //
 // $$ ‖u^ε - u^0‖^2 ∼ ∑_k k^{-4} \min(1, (ε k)^4) ∼ ε^3: $$
 //

@@ -4,9 +4,9 @@
 // Run: 13_uniform --cells 64
 // Run: 13_uniform --exercise 1
 //
-// Needs: [09](../09_convergence/09_convergence.cpp) (orders),
-// [11](../11_propositions/11_propositions.cpp) (Propositions 2 and 3),
-// [12](../12_contact_sets/12_contact_sets.cpp) (approaches).
+// Needs: [05](../05_p1_structured/05_p1_structured.cpp) (approaches, Theorem 4 in words),
+// [09](../09_convergence/09_convergence.cpp) (orders),
+// [11](../11_propositions/11_propositions.cpp) (Propositions 2 and 3).
 //
 // **The picture.** What P1 loses of the layer's displacement over what it keeps, over the
 // plane of ε and $h$, on four families of meshes. *Yellow: nearly all is lost. Dark: nearly

@@ -6,7 +6,6 @@
 // Run: 16_degree --exercise 1
 //
 // Needs: [07](../07_kernel/07_kernel.cpp) for $G_h$ and its dimension,
-// [12](../12_contact_sets/12_contact_sets.cpp) for $K_h ⊄ K$,
 // [06](../06_p1_unstructured/06_p1_unstructured.cpp) for the wall.
 //
 // **The picture.** Error against unknowns for the degrees 1 to 4 at ε = 1e-4, on three

@@ -5,9 +5,8 @@
 // Run: 19_certificate --exercise 2
 // Run: 19_certificate --exercise 3
 //
-// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) (energy, cone),
-// [04](../04_reference_solution/04_reference_solution.cpp) (Uzawa),
-// [08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) (Crouzeix-Raviart),
+// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) (energy, cone,
+// Uzawa), [08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) (Crouzeix-Raviart),
 // [18](../18_roundoff/18_roundoff.cpp) (the layer stress `p` is an unknown).
 // :figure: certificate_width
 //

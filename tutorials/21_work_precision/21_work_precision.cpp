@@ -5,8 +5,8 @@
 // Run: 21_work_precision --freefem freefem/run   FreeFEM's active set beside them, the stiff part summed as it comes
 // Run: 21_work_precision --exercise 1
 //
-// Needs: [04](../04_reference_solution/04_reference_solution.cpp) for Uzawa and its steps,
-// [09](../09_convergence/09_convergence.cpp) for orders,
+// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for Uzawa and its
+// steps, [09](../09_convergence/09_convergence.cpp) for orders,
 // [18](../18_roundoff/18_roundoff.cpp) for CG + ILUT,
 // [19](../19_certificate/19_certificate.cpp) for the energy bracket.
 //

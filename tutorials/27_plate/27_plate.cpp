@@ -8,7 +8,7 @@
 // Needs: [07](../07_kernel/07_kernel.cpp) for kernels,
 // [08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) for Crouzeix–Raviart (CR),
 // [13](../13_uniform/13_uniform.cpp) for the supremum over ε, [25](../25_beam/25_beam.cpp)
-// for the beam and its shear, [26](../26_elasticity/26_elasticity.cpp) for the patch test.
+// for the beam and its shear.
 // **Here ε is the parameter of the class (1) itself: $ε = t^2$**, the square of the
 // thickness $t$ but for a factor.
 //

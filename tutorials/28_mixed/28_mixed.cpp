@@ -3,10 +3,9 @@
 // Run: 28_mixed               h from 1/8 to 1/32, ε from 1 to 1e-20, and 0; some seconds
 // Run: 28_mixed --exercise 1
 //
-// Needs: [10](../10_limits/10_limits.cpp) for the limit,
-// [12](../12_contact_sets/12_contact_sets.cpp) for Definition 1 and the hidden slope,
-// [13](../13_uniform/13_uniform.cpp) for Theorem 4, [14](../14_estimates/14_estimates.cpp)
-// for coercivity.
+// Needs: [05](../05_p1_structured/05_p1_structured.cpp) for Definition 1 in words,
+// [10](../10_limits/10_limits.cpp) for the limit and for coercive forms,
+// [13](../13_uniform/13_uniform.cpp) for Theorem 4.
 //
 // **The picture.** P1 where it locks, but the strain across the layer is averaged before it
 // is squared. *Means over boxes of side $2h$ cure locking, if half of the stiff form is

@@ -3,8 +3,7 @@
 // Run: 29_pressure              five mixed methods, λ from 1 to 1e20 and infinity, 1/h from 4 to 32; some seconds
 // Run: 29_pressure --exercise 1
 //
-// Needs: [17](../17_families_of_loads/17_families_of_loads.cpp) for the worst load,
-// [26](../26_elasticity/26_elasticity.cpp) for the block of rubber and Taylor–Hood,
+// Needs: [26](../26_elasticity/26_elasticity.cpp) for the block of rubber and Taylor–Hood,
 // [28](../28_mixed/28_mixed.cpp) for projected forms and Theorem 4 with its hypotheses (i)
 // to (iv).
 //

@@ -7,8 +7,7 @@
 //
 // Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for strings,
 // [07](../07_kernel/07_kernel.cpp) for kernels, [10](../10_limits/10_limits.cpp) for the
-// class (1), [14](../14_estimates/14_estimates.cpp) for coercivity,
-// [28](../28_mixed/28_mixed.cpp) for Theorem 4 with another $a_0$.
+// class (1) and for coercive forms, [13](../13_uniform/13_uniform.cpp) for Theorem 4.
 // **Here ε is the parameter of the class itself** ($ε^2$ in (23)).
 //
 // **The picture.** The energy that two glued strings release, against the compliance ε of
@@ -42,8 +41,12 @@
 // The kernel tells of each method whether it must lock. It does not tell that the other one
 // converges: functions may be left free in the wrong place (chapter 07). The mortar changes
 // $a_0$ itself, to $a_{0h}(v, v) = \sum h d_i^2$ with the means
-// $d_i = \frac{1}{h} ∫ (u - w) φ_i$. So [chapter 28](../28_mixed/28_mixed.cpp)'s theorem is
-// the one to ask:
+// $d_i = \frac{1}{h} ∫ (u - w) φ_i$. Theorem 4 is about one $a_0$.
+// [Chapter 28](../28_mixed/28_mixed.cpp) proves it for another one, $a_{0h}$, if $K_h$
+// approaches $K$ and four conditions hold: (i) $a_1 + a_{0h}$ is coercive with one
+// constant; (ii) each element of $K_0$ is a limit of functions of $K_h$ that $a_{0h}$ does
+// not see; (iii) weak limits of bounded functions whose $a_{0h}$ tends to 0 lie in $G$;
+// (iv) $a_{0h}$ tends to $a_0$. Here they are:
 //
 // - (i) $a_1$ is coercive alone, since both strings are held at their ends;
 // - (ii) let $(u, u)$ with $u ≥ -g$ be given. Interpolate $u$ on the upper string, and let

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from PIL import Image
 
+from course import read as read_course
 from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, fence, folded, live_figure, runs_in_the_page, signs,
                       with_exercises, without_answer)
 from katex import TAG
@@ -26,8 +27,6 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "figures"))
 from table import TableError, read as read_table  # noqa: E402
 
-PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 17),
-         ("What accuracy costs", 18, 24), ("The class", 25, 99)]
 EXTRA = ["howto_scene", "howto_matrices", "howto_python", "lab", "dataset", "uniform_rate", "locking_loss", "errata", "glossary", "notation"]
 WIDTH, HEIGHT = 900, 760  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
 
@@ -37,6 +36,7 @@ class Book:
         self.out, self.draft, self.without_runs = out, draft, without_runs
         self.sources = sorted(path for path in (ROOT / "tutorials").glob("[0-9][0-9]_*/[0-9][0-9]_*.cpp"))
         self.names = [path.stem for path in self.sources]
+        self.parts = read_course(ROOT / "tutorials")
         self.table = read_table()
         self.library = Library(ROOT / "lib")
         self.pages, self.equations = {}, {}  # by tag: the chapter that has the equation first
@@ -187,16 +187,23 @@ class Book:
             self.complain(f"{stem}.cpp: :figure: {name}: it stands on the page already")
         return row
 
+    def place(self, stem):
+        """The part of a chapter and its minutes, as one line."""
+        part = next(part for part in self.parts if stem in part.chapters)
+        at = f"{part.title}, chapter {part.chapters.index(stem) + 1} of {len(part.chapters)}" if part.kind == "course" else part.title
+        return f"**{at}.** About {part.minutes[stem]} minutes."
+
     def relations(self, stem):
-        """What the chapter needs, in its own words, and where it leads to."""
+        """The place of the chapter, what it needs, in its own words, and where it leads to."""
         page = self.pages[stem]
         leads = [name for name in self.names if stem[:2] in self.pages[name].needed() and name != stem]
         def titled(found):
             return f"[{found[1]} {self.pages[found[3]].title}]({found[2]})" if found[3] in self.pages else found[0]
-        out = [re.sub(r"\[(\d\d)\]\(((?:\.\./)?(\w+)/\3\.cpp)\)", titled, line) for line in page.needs]
+        out = [self.place(stem), ""]
+        out += [re.sub(r"\[(\d\d)\]\(((?:\.\./)?(\w+)/\3\.cpp)\)", titled, line) for line in page.needs]
         if leads:
             out.append("Leads to: " + ", ".join(f"[{name[:2]} {self.pages[name].title}](../{name}/{name}.cpp)" for name in leads) + ".")
-        return [":::{container} relations", *self.linked(out, ROOT / "tutorials" / stem), ":::", ""] if out else []
+        return [":::{container} relations", *self.linked(out, ROOT / "tutorials" / stem), ":::", ""]
 
     def chapter(self, source):
         """The first picture that no line places stands on top. Where a page places pictures, it places all others of its own."""
@@ -292,18 +299,23 @@ class Book:
             return f'| <span id="{term_anchor(found[1])}"></span>{found[1]}' if found[1] in self.terms else found[0]
         return re.sub(r"\| ([\d, ]+) \|$", numbers, re.sub(r"^\| ([^|]+?)(?= \([A-Z]+\) \|| \|)", place, line))
 
+    def contents(self, part):
+        """A part in the table of contents: what it is for, its time, and a row for each chapter."""
+        rows = [f"| [{name[:2]} {self.pages[name].title}]({name}.md) | {part.minutes[name]} |" for name in part.chapters]
+        head = f"{part.title}: {part.takes()}" if part.kind == "course" else part.title
+        time = "" if part.kind == "course" else f"{part.takes().capitalize()}. "
+        relation = re.sub(r"\b\d\d\b(?! minutes)", lambda found: f"[{found[0]}]({self.first_of(found[0])}.md)", part.relation())
+        return [f"## {head}", "", f"{part.about} {time}{relation}", "", "| chapter | minutes |", "|---|---|", *rows, "",
+                "```{toctree}", ":hidden:", f":caption: {part.title}", "",
+                *(f"{name[:2]} {self.pages[name].title} <{name}>" for name in part.chapters), "```", ""]
+
     def index(self):
         text = "\n".join(self.linked((ROOT / "tutorials/book/index.md").read_text().splitlines(), ROOT / "tutorials/book"))
-        trees = []
-        for i, (caption, first, last) in enumerate(PARTS):
-            names = [name for name in self.names if first <= int(name[:2]) <= last]
-            if names:
-                trees += ["```{toctree}", f":caption: {'I II III IV V'.split()[i]} {caption}", ":maxdepth: 1", "",
-                          *(f"{name[:2]} {self.pages[name].title} <{name}>" for name in names), "```", ""]
+        contents = [line for part in self.parts for line in self.contents(part)]
         more = ["playground", "theory", "gallery", *(name for name in EXTRA if (self.out / f"{name}.md").exists()), "library"]
-        trees += ["```{toctree}", ":caption: To look up", ":maxdepth: 1", "", *more, "```"]
+        contents += ["## To look up", "", "```{toctree}", ":caption: To look up", ":maxdepth: 1", "", *more, "```"]
         live = "\n".join(live_figure("mesh=unstructured")[1])
-        self.write("index", text.replace(":live:", live).replace(":chapters:", "\n".join(trees)).splitlines())
+        self.write("index", text.replace(":live:", live).replace(":chapters:", "\n".join(contents)).splitlines())
 
     def make(self):
         self.out.mkdir(parents=True, exist_ok=True)
