@@ -25,6 +25,9 @@ CHAPTERS = {
 //
 // Run: 00_start    a moment
 //
+// **Afterwards you can** begin,
+// and end.
+//
 // Needs: nothing,
 // at all.
 // :live: string
@@ -40,6 +43,8 @@ int main() { return 0; }
 // Run: 07_middle              a moment
 // Run: 07_middle --cells 4
 // Run: 07_middle --exercise 1
+//
+// **Afterwards you can** go on.
 //
 // Needs: [00](../00_start/00_start.cpp) (all of it).
 //
@@ -195,7 +200,8 @@ class Pages(unittest.TestCase):
                                 r".*## More\n\nRead it\. About 5 minutes\. It needs the course\. Nothing later needs it\.")
 
     def test_a_chapter_says_where_it_stands_and_how_long_it_takes(self):
-        self.assertIn("**Basics, chapter 2 of 2.** About 5 minutes.", self.page("07_middle"))
+        self.assertIn("**Basics, chapter 1 of 2.** About 5 minutes.\n**Afterwards you can** begin,\nand end.\n\nNeeds: nothing", self.page("00_start"))
+        self.assertIn("**Basics, chapter 2 of 2.** About 5 minutes.\n**Afterwards you can** go on.", self.page("07_middle"))
         self.assertIn("**More.** About 5 minutes.", self.page("27_later"))
 
     def test_minutes_are_those_of_words_formulas_lines_and_runs(self):
@@ -381,6 +387,8 @@ class Pages(unittest.TestCase):
                 ("the course needs chapter 07, which is none of its chapters", swapped)):
             with self.subTest(course=says):
                 self.refused(says, "tutorials/book/course.toml", table, self.pages, COURSE)
+        with self.subTest("objectives"):
+            self.refused('00_start.cpp: no paragraph "**Afterwards you can** ..."', chapter, "// **Later you can** begin", self.pages, "// **Afterwards you can** begin")
         with self.subTest("title"):
             self.refused("accepted: at most six", chapter, "// # A title of more than six words", self.pages, "// # A first chapter")
 

@@ -5,6 +5,9 @@
 // Run: 00_string_on_an_obstacle --exercise 2
 // Run: 00_string_on_an_obstacle --exercise 3
 //
+// **Afterwards you can** derive a variational inequality from an energy, solve it with an
+// active set and with Uzawa's steps, and say from a condition number what a digit costs.
+//
 // Needs: one course on finite elements (hat functions, the matrix of a form). It is the
 // first chapter.
 // :live: string

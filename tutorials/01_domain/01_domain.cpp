@@ -4,6 +4,9 @@
 // Run: 01_domain --epsilon 0.3
 // Run: 01_domain --exercise 1
 //
+// **Afterwards you can** derive problem (23) from its strong form, and say by a change of
+// variable which derivative in the layer is stiff.
+//
 // Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) (variational
 // inequality, cone, complementarity).
 //

@@ -5,6 +5,9 @@
 // Run: 02_meshes --exercise 1
 // Run: 02_meshes --exercise 2
 //
+// **Afterwards you can** predict from the picture of a mesh whether P1 locks on it, and
+// count the functions that are left in the limit.
+//
 // Needs: [01](../01_domain/01_domain.cpp) (problem (23), the stiff form $a_y^-$).
 //
 // :figure: figure7 figure8

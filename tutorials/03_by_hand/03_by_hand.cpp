@@ -5,6 +5,9 @@
 // Run: 03_by_hand --exercise 1
 // Run: 03_by_hand --exercise 2
 //
+// **Afterwards you can** assemble a contact problem with a stiff layer, and solve it at
+// every $ε$, also at 0, without dividing by $ε$.
+//
 // Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) (contact),
 // [01](../01_domain/01_domain.cpp) ((23)), [02](../02_meshes/02_meshes.cpp) (P1, kernel).
 //

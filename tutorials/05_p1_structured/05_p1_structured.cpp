@@ -6,6 +6,9 @@
 // Run: 05_p1_structured --exercise 1
 // Run: 05_p1_structured --exercise 2
 //
+// **Afterwards you can** say what a method must fulfil to be good at every $ε$, and check
+// it for P1 on the structured mesh.
+//
 // Needs: [02](../02_meshes/02_meshes.cpp) (kernel, structured mesh),
 // [03](../03_by_hand/03_by_hand.cpp) (split form, layer stress).
 //

@@ -6,6 +6,9 @@
 // Run: 06_p1_unstructured --exercise 2
 // Run: 06_p1_unstructured --exercise 3
 //
+// **Afterwards you can** recognise a solution that has locked, derive from the shape of the
+// triangles at which $ε$ locking begins, and say which problem the body then solves.
+//
 // Needs: [02](../02_meshes/02_meshes.cpp) (kernel, tied triangles),
 // [05](../05_p1_structured/05_p1_structured.cpp) (the limit problem (27), Theorem 4).
 // :live: mesh=unstructured

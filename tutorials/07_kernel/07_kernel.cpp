@@ -5,6 +5,9 @@
 // Run: 07_kernel --exercise 1
 // Run: 07_kernel --exercise 2
 //
+// **Afterwards you can** count the kernel of a method on the layer by a rank, prove why it
+// must grow, and decide on two meshes whether a method locks.
+//
 // Needs: [02](../02_meshes/02_meshes.cpp) (kernel, ties),
 // [03](../03_by_hand/03_by_hand.cpp) (B), [05](../05_p1_structured/05_p1_structured.cpp)
 // (Theorem 4), [06](../06_p1_unstructured/06_p1_unstructured.cpp) (locking).

@@ -5,6 +5,9 @@
 // Run: 08_crouzeix_raviart --exercise 1
 // Run: 08_crouzeix_raviart --exercise 2
 //
+// **Afterwards you can** define the element of Crouzeix and Raviart, prove by Green's
+// formula why it keeps the ridge on every mesh, and name its price.
+//
 // Needs: [05](../05_p1_structured/05_p1_structured.cpp) ((27), Theorem 4),
 // [06](../06_p1_unstructured/06_p1_unstructured.cpp), [07](../07_kernel/07_kernel.cpp)
 // (kernel).

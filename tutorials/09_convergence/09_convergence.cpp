@@ -5,6 +5,9 @@
 // Run: 09_convergence --exercise 1
 // Run: 09_convergence --exercise 2
 //
+// **Afterwards you can** read orders from a plot of errors, and tell uniform convergence
+// from convergence at each $ε$.
+//
 // Needs: [05](../05_p1_structured/05_p1_structured.cpp) (Theorem 5),
 // [06](../06_p1_unstructured/06_p1_unstructured.cpp) (locking and its law),
 // [08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) (CR, Theorem 7, broken norms).

@@ -4,6 +4,9 @@
 // Run: 10_limits --cells 64
 // Run: 10_limits --exercise 1
 //
+// **Afterwards you can** prove that $u^ε$ tends to $u^0$, derive the limit model on $Σ$,
+// and estimate how fast it is reached.
+//
 // Needs: [01](../01_domain/01_domain.cpp) ((22), (23)), [03](../03_by_hand/03_by_hand.cpp)
 // ($p$), [05](../05_p1_structured/05_p1_structured.cpp) (weak limits).
 //

@@ -4,6 +4,9 @@
 // Run: 11_propositions --cells 32
 // Run: 11_propositions --exercise 1
 //
+// **Afterwards you can** take the limits in ε and $h$ in both orders, split an error into
+// three steps, and name the step that fails for locked P1.
+//
 // Needs: [10](../10_limits/10_limits.cpp) (Theorem 1 and its proof),
 // [07](../07_kernel/07_kernel.cpp) (kernel), [09](../09_convergence/09_convergence.cpp)
 // (order).

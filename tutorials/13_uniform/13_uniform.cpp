@@ -4,6 +4,9 @@
 // Run: 13_uniform --cells 64
 // Run: 13_uniform --exercise 1
 //
+// **Afterwards you can** tell a robust method from one that is free of locking, prove
+// uniform convergence by contradiction, and read a map of locking.
+//
 // Needs: [05](../05_p1_structured/05_p1_structured.cpp) (approaches, Theorem 4 in words),
 // [09](../09_convergence/09_convergence.cpp) (orders),
 // [11](../11_propositions/11_propositions.cpp) (Propositions 2 and 3).

@@ -4,6 +4,9 @@
 // Run: 18_roundoff --cells 64   a finer mesh: the trap closes at a larger ε
 // Run: 18_roundoff --exercise 1
 //
+// **Afterwards you can** predict how many digits a summed matrix loses, tell round-off from
+// locking, and solve the split form.
+//
 // Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for condition
 // numbers, [03](../03_by_hand/03_by_hand.cpp) for the layer stress and the iterated
 // penalty, [06](../06_p1_unstructured/06_p1_unstructured.cpp) for locking.

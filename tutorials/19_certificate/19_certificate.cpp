@@ -5,6 +5,9 @@
 // Run: 19_certificate --exercise 2
 // Run: 19_certificate --exercise 3
 //
+// **Afterwards you can** compute a bound of the error without an exact solution, and say
+// what the width of the bound consists of.
+//
 // Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) (energy, cone,
 // Uzawa), [08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) (Crouzeix-Raviart),
 // [18](../18_roundoff/18_roundoff.cpp) (the layer stress `p` is an unknown).

@@ -5,6 +5,9 @@
 // Run: 33_your_own_problem --exercise 1
 // Run: 33_your_own_problem --exercise 2
 //
+// **Afterwards you can** describe a problem of your own by two forms and its bounds, count
+// its kernel, and check the conditions of Theorem 4.
+//
 // Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for strings,
 // [07](../07_kernel/07_kernel.cpp) for kernels, [10](../10_limits/10_limits.cpp) for the
 // class (1) and for coercive forms, [13](../13_uniform/13_uniform.cpp) for Theorem 4.

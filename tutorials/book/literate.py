@@ -146,13 +146,18 @@ def without_answer(lines, commands, paper):
     return [number for number in listed if number not in answered]
 
 
-def needs(prose):
-    """Takes the paragraph `Needs: [00](...) (cone), ...` out of the prose: (prose, the paragraph)."""
-    start = next((i for i, line in enumerate(prose) if line.startswith("Needs: ")), None)
+def paragraph(prose, words):
+    """Takes the paragraph that begins with these words out of the prose: (prose, the paragraph)."""
+    start = next((i for i, line in enumerate(prose) if line.startswith(words)), None)
     if start is None:
         return prose, []
     end = next((i for i in range(start, len(prose)) if not prose[i].strip() or PLACE.match(prose[i])), len(prose))
     return prose[:start] + prose[end:], prose[start:end]
+
+
+def needs(prose):
+    """Takes the paragraph `Needs: [00](...) (cone), ...` out of the prose: (prose, the paragraph)."""
+    return paragraph(prose, "Needs: ")
 
 
 def answers_on_paper(path):
@@ -184,7 +189,7 @@ class Page:
     """What a tutorial's source says, in the order of its page."""
 
     def __init__(self, source, twin, draft):
-        self.title, self.lead, self.body, self.runs, self.needs = None, [], [], [], []
+        self.title, self.lead, self.body, self.runs, self.objectives, self.needs = None, [], [], [], [], []
         self.lives, self.steps = [], set()
         self.twin = steps(twin)
         self.shown = set()
@@ -224,6 +229,7 @@ class Page:
         if not draft and len(self.title.split()) > 6:
             raise BookError(f"{source.name}: the title has {len(self.title.split())} words; accepted: at most six")
         block, self.runs = runs(block[1:])
+        block, self.objectives = paragraph(block, "**Afterwards you can** ")
         block, self.needs = needs(block)
         return block
 

@@ -190,16 +190,18 @@ class Book:
     def place(self, stem):
         """The part of a chapter and its minutes, as one line."""
         part = next(part for part in self.parts if stem in part.chapters)
+        if part.kind == "course" and not self.pages[stem].objectives:
+            self.complain(f"{stem}.cpp: no paragraph \"**Afterwards you can** ...\"; each chapter of the course has one")
         at = f"{part.title}, chapter {part.chapters.index(stem) + 1} of {len(part.chapters)}" if part.kind == "course" else part.title
         return f"**{at}.** About {part.minutes[stem]} minutes."
 
     def relations(self, stem):
-        """The place of the chapter, what it needs, in its own words, and where it leads to."""
+        """The place of the chapter, its objectives and what it needs, in its own words, and where it leads to."""
         page = self.pages[stem]
         leads = [name for name in self.names if stem[:2] in self.pages[name].needed() and name != stem]
         def titled(found):
             return f"[{found[1]} {self.pages[found[3]].title}]({found[2]})" if found[3] in self.pages else found[0]
-        out = [self.place(stem), ""]
+        out = [self.place(stem), *page.objectives, ""]
         out += [re.sub(r"\[(\d\d)\]\(((?:\.\./)?(\w+)/\3\.cpp)\)", titled, line) for line in page.needs]
         if leads:
             out.append("Leads to: " + ", ".join(f"[{name[:2]} {self.pages[name].title}](../{name}/{name}.cpp)" for name in leads) + ".")
