@@ -261,6 +261,15 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 //    not 0?)
 // 4. On paper: show by $v = 0$ and $v = 2u$ that $a(u, u) = L(u)$. Which of the two is
 //    forbidden in exercise 2, and what is left of the equality?
+//
+// ## Further reading
+//
+// - [Kinderlehrer and Stampacchia 2000](../guides/bibliography.md#kinderlehrer-2000): the
+//   theorem of Stampacchia, and how smooth a string on an obstacle is.
+// - [Hintermüller, Ito and Kunisch 2002](../guides/bibliography.md#hintermueller-2002): the
+//   active set method as a method of Newton.
+// - [Glowinski 1984](../guides/bibliography.md#glowinski-1984): Uzawa's method and its
+//   step.
 
 #include "answers.hpp"
 

@@ -163,6 +163,13 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 //    of the derivation?
 // 3. On paper: write (21) on the unit layer. Which equation holds in it, and what passes
 //    from body to layer on $Σ$?
+//
+// ## Further reading
+//
+// - [Slimane and Renard 2004](../guides/bibliography.md#slimane-2004): the problems (21) to
+//   (23), in the words of the paper.
+// - [Kikuchi and Oden 1988](../guides/bibliography.md#kikuchi-1988): contact conditions in
+//   elasticity, derived in the same way.
 
 #include "answers.hpp"
 

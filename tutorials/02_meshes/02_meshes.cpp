@@ -37,11 +37,11 @@
 // $a(u, u) ≤ (f, u)$. By the size of a function we mean the root of the integral of its
 // square. The right side is at most the size of $f$ times the size of $u$. The size of $u$
 // is at most $C a(u, u)^{1/2}$, because $u$ is 0 on $Γ_D$ and can be large only if its
-// derivatives are. One $C$ serves all $ε ≤ 1$, since $a$ only grows when $ε$ falls. Divide
-// by $a(u, u)^{1/2}$: what is left stays below a number that does not depend on $ε$, and so
-// does $a(u, u)$. It contains $ε^{-2} a_y^-(u, u)$. Hence $a_y^-(u, u)$ is at most $ε^2$
-// times this number: in the limit only displacements with $∂_y u = 0$ in the layer are
-// left.
+// derivatives are. (This is the inequality of *Poincaré and Friedrichs*.) One $C$ serves
+// all $ε ≤ 1$, since $a$ only grows when $ε$ falls. Divide by $a(u, u)^{1/2}$: what is left
+// stays below a number that does not depend on $ε$, and so does $a(u, u)$. It contains
+// $ε^{-2} a_y^-(u, u)$. Hence $a_y^-(u, u)$ is at most $ε^2$ times this number: in the
+// limit only displacements with $∂_y u = 0$ in the layer are left.
 //
 // Now the same on a mesh. Let $V_h$ be the P1 functions: affine on each triangle,
 // continuous, 0 on $Γ_D$. Those that the stiff form does not see are its *kernel*, and in
@@ -196,6 +196,13 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
 //    Which functions of $G_h$ are left on the layer of the unstructured mesh? And if the layer alone is free at its sides?
 // 4. On paper: quadratic functions with $∂_y v = 0$ on one group. How many are 0 at both
 //    ends?
+//
+// ## Further reading
+//
+// - [Babuška and Suri 1992](../guides/bibliography.md#babuska-1992): the definition of
+//   locking, with examples.
+// - [Braess 2007](../guides/bibliography.md#braess-2007): locking in a first course on
+//   finite elements.
 
 #include "answers.hpp"
 

@@ -253,6 +253,13 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 //    many entries have their rows?
 // 3. On paper: derive the factor $(δ - ε²)/(δ + σ)$. (Without contact; write $du$ by $r_2$
 //    alone.)
+//
+// ## Further reading
+//
+// - [Boffi, Brezzi and Fortin 2013](../guides/bibliography.md#boffi-2013): the stress as an
+//   unknown, and the iterated penalty method.
+// - [Fortin and Glowinski 1983](../guides/bibliography.md#fortin-1983): the same method
+//   under its other name, augmented Lagrangians.
 
 #include "answers.hpp"
 

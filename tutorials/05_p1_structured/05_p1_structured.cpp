@@ -201,6 +201,13 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
 // 2. Double the load. Does the contact zone grow? Does the pressure double?
 // 3. On paper: integrate $∂_y p = -u''(x)$ over the layer. Which condition on $Σ$ is left
 //    of the layer?
+//
+// ## Further reading
+//
+// - [Mosco 1969](../guides/bibliography.md#mosco-1969): the two conditions of Definition 1,
+//   for functions that do not jump.
+// - [Glowinski 1984](../guides/bibliography.md#glowinski-1984): a proof of convergence for
+//   inequalities with finite elements.
 
 #include "answers.hpp"
 

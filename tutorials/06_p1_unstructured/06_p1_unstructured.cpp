@@ -280,6 +280,13 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 // 5. On paper: for which loads is nothing lost on this mesh?
 // 6. On paper: the staggered mesh, but its rows twice as high, and twice as low. What is
 //    $k$, and which would you take?
+//
+// ## Further reading
+//
+// - [Babuška and Suri 1992b](../guides/bibliography.md#babuska-1992b): locking of triangles
+//   in elasticity, and its rates.
+// - [Slimane and Renard 2004](../guides/bibliography.md#slimane-2004): Section 4.1 has
+//   Figure 7 and what the paper says of it.
 
 #include "answers.hpp"
 

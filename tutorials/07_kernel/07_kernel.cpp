@@ -214,6 +214,13 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
 // 2. $ε = 0$, and vertices moved by a millionth of $h$. How much of the displacement is
 //    lost?
 // 3. On paper: P3 on one group of tied triangles: which functions of $x$ are left?
+//
+// ## Further reading
+//
+// - [Babuška and Suri 1992](../guides/bibliography.md#babuska-1992): kernels, and why they
+//   must be rich enough.
+// - [Boffi, Brezzi and Fortin 2013](../guides/bibliography.md#boffi-2013): the kernel of a
+//   discrete operator, and what else convergence needs.
 
 #include "answers.hpp"
 

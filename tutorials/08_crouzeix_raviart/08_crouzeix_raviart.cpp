@@ -194,6 +194,13 @@ void nonconforming(const tutorial::Options& options, tutorial::Report& report) {
 //    $ε = 10^{-6}$. Predict it on 64. Then on 64 at $ε = 0$, and at $10^{-2}$.
 // 3. On paper: why is P1's interpolation no substitute in the proof? Which of the three
 //    means over edges does it keep?
+//
+// ## Further reading
+//
+// - [Crouzeix and Raviart 1973](../guides/bibliography.md#crouzeix-1973): the element, and
+//   means over edges.
+// - [Brenner and Scott 2008](../guides/bibliography.md#brenner-2008): nonconforming
+//   elements, and inequalities of Poincaré, Friedrichs and Korn for them.
 
 #include "answers.hpp"
 

@@ -201,6 +201,11 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& exact_so
 // 1. Add $ε = 10^{-3}$ for P1 unstructured. Where does its line start to fall?
 // 2. P1 on the layered mesh: uniform or not?
 // 3. Plot `h1` or `energy` of `results.csv` in place of `max`: which slopes?
+//
+// ## Further reading
+//
+// - [Ciarlet 2002](../guides/bibliography.md#ciarlet-2002): orders of interpolation.
+// - [Falk 1974](../guides/bibliography.md#falk-1974): orders for inequalities.
 
 #include "answers.hpp"
 

@@ -83,9 +83,10 @@
 // like the limit but for a share $∼ (ε k)^2$, and from $k ∼ 1/ε$ on quite differently. How
 // much of $u^0$ is in such waves? Where contact ends its pressure jumps, and the waves of a
 // jump fall like $k^{-1}$. The pressure is about $s_k$ times the displacement. A rigid
-// layer resists like a string, so $s_k$ grows like $k^2$: two derivatives of a sine are
-// $k^2$ times it. So the waves of the displacement on $Γ_C$ fall like $k^{-3}$. In the
-// square of the norm wave $k$ counts $k^2 (k^{-3})^2 = k^{-4}$. Together
+// layer resists like a string, so $s_k$ grows like $k^2$, by the two derivatives of a sine.
+// So the waves of the displacement on $Γ_C$ fall like $k^{-3}$. The square of a norm is the
+// sum of those of the waves (*Parseval*), and in it wave $k$ counts
+// $k^2 (k^{-3})^2 = k^{-4}$. Together
 //
 // $$ ‖u^ε - u^0‖^2 ∼ ∑_k k^{-4} \min(1, (ε k)^4) ∼ ε^3: $$
 //
@@ -236,6 +237,13 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
 // 2. On paper: $v = 0$ and $v = 2u^ε$ in (23) give $a^ε(u^ε, u^ε) = L(u^ε)$. Which bound on
 //    $ε ‖p‖$ follows?
 // 3. On paper: derive (25) from (2) by parts.
+//
+// ## Further reading
+//
+// - [Brezis 2011](../guides/bibliography.md#brezis-2011): weak limits, and the theorems of
+//   Mazur and Stampacchia.
+// - [Slimane and Renard 2004](../guides/bibliography.md#slimane-2004): Theorem 1 in the
+//   words of the paper, and Remark 5.
 
 #include "answers.hpp"
 

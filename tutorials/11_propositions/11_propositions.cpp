@@ -252,6 +252,13 @@ void propositions(const tutorial::Options& options, tutorial::Report& report) {
 // 1. Locked P1 along $ε = h$ in place of $h^2$: does its error still stay?
 // 2. On paper: locked P1 on a fixed mesh, $ε → 0$. Where does $ε ‖p_h^ε‖$ go, and where
 //    $‖p_h^ε‖$?
+//
+// ## Further reading
+//
+// - [Mosco 1969](../guides/bibliography.md#mosco-1969): solutions converge when their sets
+//   do.
+// - [Slimane and Renard 2004](../guides/bibliography.md#slimane-2004): Propositions 1 to 3
+//   and their proofs.
 
 #include "answers.hpp"
 

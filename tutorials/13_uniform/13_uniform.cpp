@@ -67,10 +67,10 @@
 // and Crouzeix–Raviart has: [chapter 14](../14_estimates/14_estimates.cpp). The paper
 // supposes them from its Section 3.1 on.) Suppose that a method with both properties is not
 // robust. Then there are $h_n → 0$ and $ε_n$ with errors above some $c > 0$. Numbers of
-// $[0, 1]$ have limit points, so a part of the $ε_n$ tends to some $\bar ε$. If
-// $\bar ε > 0$, the $ε_n$ keep away from 0 from some $n$ on, and this contradicts
-// Proposition 4. If $\bar ε = 0$, both $h$ and ε tend to 0, and it contradicts Proposition
-// 3.
+// $[0, 1]$ have limit points (*Bolzano* and *Weierstrass*), so a part of the $ε_n$ tends to
+// some $\bar ε$. If $\bar ε > 0$, the $ε_n$ keep away from 0 from some $n$ on, and this
+// contradicts Proposition 4. If $\bar ε = 0$, both $h$ and ε tend to 0, and it contradicts
+// Proposition 3.
 //
 // **Theorem 5** is Theorem 4 for P1 on the structured mesh. In the layer the interpolant of
 // a smooth $v ∈ K_0$ takes one value per vertical line, so it is in $K_{0h}$. Smooth $v$
@@ -262,6 +262,13 @@ void judge(const Method& method, const Table& own, const Table& worst, double lo
 //    Is the hypothesis of Theorem 4 necessary?
 // 2. On paper: on the unstructured mesh, does the worst error of P1 over $[h, 1]$ tend to
 //    0, and that over $[h^2, 1]$? And on the Delaunay mesh?
+//
+// ## Further reading
+//
+// - [Babuška and Suri 1992](../guides/bibliography.md#babuska-1992): robust, and free of
+//   locking.
+// - [Slimane and Renard 2004](../guides/bibliography.md#slimane-2004): Theorem 4, and
+//   Theorems 5 and 7 for two elements.
 
 #include "answers.hpp"
 

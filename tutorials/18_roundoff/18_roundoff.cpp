@@ -275,6 +275,13 @@ void judge(const Table& results, const Table& conditions, const Table& lines,
 //    $r = L - (A_1 + ε^{-2} B^T M B) u$, correct. Does it bring the digits back, at ε = 1e-7?
 // 2. On paper: with δ = 1e-6 and $σ ∼ h^2$ on 1/h = 64, how many corrections give 12
 //    digits?
+//
+// ## Further reading
+//
+// - [Higham 2002](../guides/bibliography.md#higham-2002): condition numbers, and what
+//   iterative refinement can do.
+// - [Boffi, Brezzi and Fortin 2013](../guides/bibliography.md#boffi-2013): saddle points,
+//   and the iterated penalty method.
 
 #include "answers.hpp"
 

@@ -269,6 +269,15 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // 2. With an obstacle at distance $0.02 x (1 - x)$ no $u$ is known. Do the brackets of
 //    `1/h = 16` and `32` agree?
 // 3. May P2 take the place of P1 in the upper bound?
+//
+// ## Further reading
+//
+// - [Prager and Synge 1947](../guides/bibliography.md#prager-1947): the identity without
+//   contact.
+// - [Repin and Valdman 2017](../guides/bibliography.md#repin-2017): the identity with an
+//   obstacle.
+// - [Braess 2007](../guides/bibliography.md#braess-2007): equilibrated fluxes in a
+//   textbook.
 
 #include "answers.hpp"
 

@@ -58,7 +58,7 @@
 // by some $δ_h → 0$ at most. Add $δ_h$ times one fixed bump to both strings, and project
 // again: $w_h ≥ -g$ and $a_{0h} = 0$;
 // - (iii), (iv) bounded pairs have a subsequence for which $u_h - w_h$ converges strongly
-//   in $L^2$ (compactness). Means over
+//   in $L^2$ (*Rellich*'s theorem). Means over
 // a width of $2h$ then tend to the function itself, and $a_{0h}$ to $a_0$.
 //
 // So the mortar converges uniformly in ε, with the obstacle (*proved*). For a problem of
@@ -291,6 +291,13 @@ void touch(const tutorial::Options& options, tutorial::Report& report) {
 // 2. Give both strings that only touch $n$ cells. Is the pressure between them smooth?
 // 3. A problem of your own: replace $A_1$, $B$, $M$, load and bounds; the checks need no
 //    truth.
+//
+// ## Further reading
+//
+// - [Wohlmuth 2011](../guides/bibliography.md#wohlmuth-2011): two bodies whose meshes do
+//   not match: mortar methods.
+// - [Chouly, Hild and Renard 2023](../guides/bibliography.md#chouly-2023): contact of two
+//   bodies, and Nitsche's method.
 
 #include "answers.hpp"
 
