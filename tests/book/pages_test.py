@@ -18,7 +18,7 @@ sys.path.insert(0, str(ROOT / "tutorials/book"))
 from course import minutes  # noqa: E402
 from library import EXAMPLES, Library  # noqa: E402
 from literate import STILLS  # noqa: E402
-from pages import EXTRA  # noqa: E402
+from pages import EXTRA, TEACHING  # noqa: E402
 
 CHAPTERS = {
     "00_start": """// # A first chapter
@@ -141,7 +141,7 @@ def small_repository(root):
     (root / "tutorials/README.md").write_text("# Tutorials\n\n## The theory as experiments\n\nNone.\n")
     (root / "tutorials/book/index.md").write_text("# The index\n\nBegin with [a start](../00_start/00_start.cpp).\n\n:live:\n\n:chapters:\n")
     (root / "tutorials/guides").mkdir()
-    for page in EXTRA:
+    for page in EXTRA + TEACHING:
         (root / f"tutorials/guides/{page}.md").write_text(f"# The {page}\n\nNone.\n")
     (root / "tutorials/guides/glossary.md").write_text("# Glossary\n\n| term | in one line | chapter |\n|---|---|---|\n| figure | what one *looks* at | 00 |\n"
                                                 "| words (of a page) | no such link | 00 |\n")
@@ -195,7 +195,7 @@ class Pages(unittest.TestCase):
     def test_the_index_has_every_chapter_once_in_the_order_of_the_parts(self):
         index = self.page("index")
         self.assertEqual(re.findall(r"<(\d\d_\w+)>", index), ["00_start", "07_middle", "27_later"])
-        self.assertEqual(re.findall(r":caption: (\w+)", index), ["Basics", "More", "To"])
+        self.assertEqual(re.findall(r":caption: (\w+)", index), ["Basics", "More", "For", "To"])
         self.assertRegex(index, r"(?s)## Basics: some 0 hours\n\nRead both\. It needs no other chapter\..*\[07 A second chapter\]\(07_middle\.md\) \| 5 \|"
                                 r".*## More\n\nRead it\. About 5 minutes\. It needs the course\. Nothing later needs it\.")
 

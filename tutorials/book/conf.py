@@ -63,7 +63,7 @@ def tighten(app, error):
 
 
 RELEASE = dict(re.findall(r"^(version|license): (\S+)$", (HERE.parents[1] / "CITATION.cff").read_text(), re.M))
-FOOT = (f'<p class="foot">Antilock {RELEASE["version"]}, the Antilock authors; licence {RELEASE["license"]}. To cite: L. Slimane and Y. Renard, '
+FOOT = (f'<p class="foot">Antilock {RELEASE["version"]}, the Antilock authors; licence of the text CC BY 4.0, of the code {RELEASE["license"]}. To cite: L. Slimane and Y. Renard, '
         "J. Comput. Appl. Math. 170 (2004) 121–143, with this software and its version (CITATION.cff).</p>")
 
 

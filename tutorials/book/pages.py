@@ -27,7 +27,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "figures"))
 from table import TableError, read as read_table  # noqa: E402
 
-EXTRA = ["howto_scene", "howto_matrices", "howto_python", "lab", "dataset", "uniform_rate", "locking_loss", "errata", "glossary", "notation", "bibliography"]
+EXTRA = ["howto_scene", "howto_matrices", "howto_python", "dataset", "uniform_rate", "locking_loss", "errata", "glossary", "notation", "bibliography"]
+TEACHING = ["teaching", "lab", "problem_sheets", "answer_book", "exam"]
 WIDTH, HEIGHT = 900, 760  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
 
 
@@ -65,7 +66,7 @@ class Book:
         path = Path(os.path.normpath(where / target))
         if path.suffix in (".cpp", ".edp") and path.stem in self.names and path.parent.name in (path.stem, "freefem"):
             return path.stem + ".md" + anchor
-        if path.parent.name in ("guides", "book") and path.suffix in (".md", ".html") and path.stem in EXTRA + self.names:
+        if path.parent.name in ("guides", "book") and path.suffix in (".md", ".html") and path.stem in EXTRA + TEACHING + self.names:
             return path.stem + ".md" + anchor
         if path == ROOT / "tutorials/README.md":
             return "theory.md"
@@ -315,6 +316,7 @@ class Book:
         text = "\n".join(self.linked((ROOT / "tutorials/book/index.md").read_text().splitlines(), ROOT / "tutorials/book"))
         contents = [line for part in self.parts for line in self.contents(part)]
         more = ["playground", "theory", "gallery", *(name for name in EXTRA if (self.out / f"{name}.md").exists()), "library"]
+        contents += ["## For teachers", "", "```{toctree}", ":caption: For teachers", ":maxdepth: 1", "", *TEACHING, "```", ""]
         contents += ["## To look up", "", "```{toctree}", ":caption: To look up", ":maxdepth: 1", "", *more, "```"]
         live = "\n".join(live_figure("mesh=unstructured")[1])
         self.write("index", text.replace(":live:", live).replace(":chapters:", "\n".join(contents)).splitlines())
@@ -329,7 +331,7 @@ class Book:
             self.picture(still)
         for source in self.sources:
             self.chapter(source)
-        for name in EXTRA:
+        for name in EXTRA + TEACHING:
             lines = (ROOT / f"tutorials/guides/{name}.md").read_text().splitlines()
             if name == "glossary":
                 lines = list(map(self.glossary_line, lines))
@@ -341,7 +343,7 @@ class Book:
         self.library.write(self.write, self.sources)
         self.index()
         self.write("search", (ROOT / "tutorials/book/search.md").read_text().splitlines())
-        known = {*self.names, *EXTRA, "playground", "search", "theory", "gallery", "index", "library", *self.library.page_names()}
+        known = {*self.names, *EXTRA, *TEACHING, "playground", "search", "theory", "gallery", "index", "library", *self.library.page_names()}
         for path in self.out.glob("*.md"):
             if path.stem not in known:
                 path.unlink()
