@@ -15,6 +15,7 @@
 #include <string_view>
 
 #if defined(__linux__)
+#include <fcntl.h>
 #include <sys/resource.h>
 #endif
 
@@ -95,8 +96,42 @@ void require_room_for_blas(int, char** argv, char** environment) {
       write(2, name.data(), name.size()) + write(2, line.data(), line.size());
   _exit(3);
 }
+
+/// The folder in which the program was started, while its libraries are loaded.
+int start_folder = -1;
+
+[[noreturn]] void end_outside_of_start_folder() {
+  constexpr std::string_view line =
+      "antilock: the current folder cannot be left and entered again; accepted: another folder\n";
+  [[maybe_unused]] const auto written = write(2, line.data(), line.size());
+  _exit(2);
+}
+
+/// Moves to the root folder until return_to_start_folder. Open MPI 5 (Debian 13) links UCX, whose
+/// constructor reads ucx.conf of the current folder. This folder may hold somebody else's scene,
+/// and an option in such a file may name a file that is then written. No variable of the
+/// environment keeps UCX from reading it.
+void leave_start_folder() {
+  start_folder = open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
+  // A folder that cannot be opened so is not searchable, and a library finds no file in it either.
+  if (start_folder >= 0 && chdir("/") != 0) end_outside_of_start_folder();
+}
+
+/// Is called after the constructors of the libraries, since it is one of the program itself, and
+/// before main.
+[[gnu::constructor]] void return_to_start_folder() {
+  if (start_folder < 0) return;
+  if (fchdir(start_folder) != 0) end_outside_of_start_folder();
+  close(start_folder);
+}
+
+// The order matters: require_room_for_blas may start the program again, in the same folder.
+void before_the_libraries(int argc, char** argv, char** environment) {
+  require_room_for_blas(argc, argv, environment);
+  leave_start_folder();
+}
 [[gnu::section(".preinit_array"),
-  gnu::used]] void (*const before_the_libraries)(int, char**, char**) = require_room_for_blas;
+  gnu::used]] void (*const called_before_the_libraries)(int, char**, char**) = before_the_libraries;
 #endif
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -267,13 +268,17 @@ TEST(PetscScene, AKilledRunLeavesACheckpointFromWhichAnotherStarts) {
               runs.summary("whole")["energy"].get<double>(), 1e-10);
 }
 
-// An option of PETSc may write files and load a library. A folder of examples may hold such
-// options.
+// An option of PETSc may write files and load a library. An option of UCX, which Open MPI 5 links,
+// may write files. A folder of examples may hold such options.
 TEST(PetscScene, ReadsNoOptionsFromTheFolderInWhichItIsStarted) {
   const Runs runs(scene_text("petsc", "structured", "P1", 16));
-  for (const std::string name : {".petscrc", "petscrc"}) {
+  const std::map<std::string, std::string> options = {
+      {".petscrc", "-ksp_view ascii:"},
+      {"petscrc", "-ksp_view ascii:"},
+      {"ucx.conf", "UCX_LOG_LEVEL=debug\nUCX_LOG_FILE="}};
+  for (const auto& [name, option] : options) {
     const std::string marker = "marker_of" + name;
-    std::ofstream(runs.folder / name) << "-ksp_view ascii:" << marker << "\n";
+    std::ofstream(runs.folder / name) << option << marker << "\n";
     for (const int ranks : {0, 2}) {
       const std::string start = "cd " + in_shell(runs.folder.path().string()) + " && ";
       EXPECT_EQ(std::system((start + runs.command(ranks, "results")).c_str()), 0)
