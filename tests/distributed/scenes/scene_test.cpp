@@ -90,6 +90,7 @@ void expect_the_files_of_the_serial_run(const Runs& serial, const Runs& petsc,
     const std::string name = std::to_string(ranks);
     const Outcome outcome = petsc.run(ranks, name);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find("WARNING"), std::string::npos) << outcome.out;  // one of PETSc
     const Csv mine = read_csv(petsc.results(name) / "solution.csv"),
               table = read_csv(petsc.results(name) / "contact.csv");
     EXPECT_EQ(mine.header, "x,y,u");
