@@ -258,6 +258,16 @@ void add_contact(VariationalInequality& problem, const UnilateralContact& contac
     if (upper(i) >= lower(i) - round_off(i)) upper(i) = std::max(upper(i), lower(i));
 }
 
+/// Adds everything but the forms: prescribed values, load, and the bounds of contact.
+void add_load_and_bounds(VariationalInequality& problem, const Scene& scene, const Space& space) {
+  problem.dirichlet_dofs = space.dirichlet_dofs();
+  problem.dirichlet_values =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
+  add_displacements(problem, scene, space);
+  problem.load = load_of(scene, space);
+  if (scene.contact()) add_contact(problem, *scene.contact(), space);
+}
+
 }  // namespace
 
 double class_parameter(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
@@ -295,6 +305,9 @@ Eigen::VectorXd load_of(const Scene& scene, const Space& space) {
 VariationalInequality assemble(const Scene& scene, const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   check_fit(scene, mesh);
+  if (space.element().dofs_per_cell() == space.element().dofs())
+    throw Error("anti-plane: no unknown of the element " + space.element().name() +
+                " is shared by two triangles; accepted: such an element with an InteriorPenalty");
   static_assert(std::variant_size_v<Layer> == 4,
                 "what a new layer adds to A1 and to B stands here");
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
@@ -319,12 +332,37 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   if (!in_rows.empty()) range.append(problem, gradient_rows(space, in_rows));
   add_springs(problem, springs, range);
 
-  problem.dirichlet_dofs = space.dirichlet_dofs();
-  problem.dirichlet_values =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
-  add_displacements(problem, scene, space);
-  problem.load = load_of(scene, space);
-  if (scene.contact()) add_contact(problem, *scene.contact(), space);
+  add_load_and_bounds(problem, scene, space);
+  return problem;
+}
+
+VariationalInequality assemble(const Scene& scene, const Space& space,
+                               const InteriorPenalty& method) {
+  check_fit(scene, space.mesh());
+  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
+  const bool has_model = stiff != nullptr || std::holds_alternative<NoLayer>(scene.layer());
+  if (!has_model || scene.body().stiffness || !scene.edges().empty() || space.mesh().curved())
+    throw Error(
+        "interior penalty: accepted: a body of stiffness 1 that is clamped, with a scaled layer "
+        "below a straight Sigma, or without a layer");
+  VariationalInequality problem;
+  problem.a1.resize(space.size(), space.size());
+  const auto add_to_a1 = [&](Region region, int axis, double stiffness) {
+    FactoredForm rows = interior_penalty_form(space, region, axis, method);
+    const auto count = rows.m.size();
+    problem.a1 += gram_matrix({std::move(rows), Eigen::VectorXd::Constant(count, stiffness)});
+  };
+  add_to_a1(Region::body, 0, 1);
+  add_to_a1(Region::body, 1, 1);
+  problem.b.resize(0, space.size());
+  if (stiff != nullptr) {
+    add_to_a1(Region::layer, 0, stiff->s);
+    FactoredForm across = interior_penalty_form(space, Region::layer, 1, method);
+    problem.b.swap(across.b);
+    problem.m = stiff->s * across.m;
+    problem.compliance = class_parameter(*stiff);
+  }
+  add_load_and_bounds(problem, scene, space);
   return problem;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "antilock/form/interior_penalty.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/space/space.hpp"
@@ -11,6 +12,16 @@ namespace antilock {
 /// With contact it has the bounds u >= -gap(x) on Gamma_C, the contact boundary. Throws Error where
 /// mesh and scene do not fit, and where the gap is not finite.
 VariationalInequality assemble(const Scene& scene, const Space& space);
+
+/// Assembles (23), or the body alone, on a space of discontinuous P1 by the symmetric interior
+/// penalty method. A1 and the rows of B are interior_penalty_form: A1 has both derivatives on the
+/// body and d/dx on the layer, B has d/dy on the layer. u = 0 on Gamma_D is imposed weakly. The
+/// bounds of contact are those of Crouzeix-Raviart, at the midpoints of the edges on Gamma_C. The
+/// first rows of B belong to the triangles of the layer, so that the first entries of Solution::p
+/// are the layer stress. Throws Error for a scene with another layer, stiffness or boundary
+/// condition, and as interior_penalty_form does.
+VariationalInequality assemble(const Scene& scene, const Space& space,
+                               const InteriorPenalty& method);
 
 /// Returns the load of such a problem (N): the forces on the body, on a scaled layer and on the
 /// named edges.

@@ -37,17 +37,20 @@ class Element {
 /// K_h, the admissible set of the discrete problem, is not a subset of K. CR is Crouzeix-Raviart's
 /// nonconforming P1 element of Section 4.2 of [SR04] (cited in problem/variational_inequality.hpp),
 /// with its unknowns at edge midpoints. p1_bubble is P1 with a bubble per triangle. Its functions
-/// are affine on every edge.
+/// are affine on every edge. P1dc, discontinuous P1, is affine on each triangle without any
+/// continuity: its three unknowns of a triangle are the values at the midpoints of its edges, and
+/// no unknown is shared. It needs a form that couples triangles (form/interior_penalty.hpp).
 const Element& p1();
 const Element& p2();
 const Element& p3();
 const Element& p4();
 const Element& crouzeix_raviart();
 const Element& p1_bubble();
+const Element& discontinuous_p1();
 /// Returns one of P1 to P6 by its degree. Throws Error for another degree.
 const Element& lagrange(int degree);
-/// Returns an element by its name, "P1" to "P6", "CR" or "P1+bubble". Throws Error for another
-/// name.
+/// Returns a conforming element or CR by its name, "P1" to "P6", "CR" or "P1+bubble". Throws Error
+/// for another name.
 const Element& element(const std::string& name);
 
 }  // namespace antilock

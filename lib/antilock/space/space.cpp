@@ -63,6 +63,15 @@ Space::Numbering::Numbering(const TriangleMesh& mesh, const Element& element) {
     for (int k = 0; k < dofs_per_vertex; ++k)
       for (const int v : {mesh.edges(e, 0), mesh.edges(e, 1)}) marked[dofs_per_vertex * v + k] = 1;
   }
+  // An unknown inside a triangle whose support point lies on an edge, as those of P1dc, belongs to
+  // the triangle alone. It is bounded on Gamma_C. It is not prescribed on a Dirichlet edge, where
+  // its form imposes the value weakly.
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      if (mesh.edge_tag[mesh.triangle_edges(t, i)] != EdgeTag::contact) continue;
+      for (Eigen::Index k = nodes.rows() - dofs_per_cell; k < nodes.rows(); ++k)
+        if (nodes(k, i) == 0) on_contact[cell_dofs(t, k)] = 1;
+    }
   for (int i = 0; i < size; ++i) {
     if (on_clamped[i]) dirichlet_dofs.push_back(i);
     if (on_contact[i] && !on_clamped[i]) contact_dofs.push_back(i);

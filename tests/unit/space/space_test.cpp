@@ -185,6 +185,24 @@ TEST(Space, CrouzeixRaviartUnknownsAreEdgeMidpoints) {
   }
 }
 
+// Its basis is that of Crouzeix-Raviart, which the tests above check; the numbering is its own.
+TEST(Space, DiscontinuousP1SharesNoUnknown) {
+  const TriangleMesh mesh = unstructured_mesh(5);
+  const Space space(mesh, discontinuous_p1());
+  ASSERT_EQ(space.size(), 3 * mesh.triangle_count());
+  std::set<int> met(space.cell_dofs().data(), space.cell_dofs().data() + space.cell_dofs().size());
+  EXPECT_EQ(static_cast<int>(met.size()), space.size());
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const auto edge = mesh.edges.row(mesh.triangle_edges(t, i));
+      const Eigen::RowVector2d middle =
+          0.5 * (mesh.vertices.row(edge(0)) + mesh.vertices.row(edge(1)));
+      ASSERT_LT((space.dof_coordinates().row(space.cell_dofs()(t, i)) - middle).norm(), round_off);
+    }
+  EXPECT_TRUE(space.dirichlet_dofs().empty());  // its form imposes u = 0
+  EXPECT_EQ(space.contact_dofs().size(), 5U);
+}
+
 TEST(Space, ConformingElementsAreContinuousCrouzeixRaviartOnlyAtMidpoints) {
   const TriangleMesh mesh = unstructured_mesh(4);
   for (const Element* element : elements()) {
