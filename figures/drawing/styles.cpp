@@ -71,6 +71,13 @@ const Row rows[] = {
     {"nothing", "nothing held", "", {grey, circle, 5}},
     {"contact set", "contact set held", "", {blue, circle, 5}},
     {"all of Gamma_C", "$Γ_C$ held", "", {blue, square, 5}},
+    // the part of the jump that an interior penalty contains, and P1 beside it
+    {"continuous P1", "continuous $P_1$", "", {vermillion, square, 10}},
+    {"whole jump", "discontinuous $P_1$, whole jump", "whole jump", {indigo, down_triangle, 8}},
+    {"mean of the jump",
+     "discontinuous $P_1$, mean of the jump",
+     "mean of the jump",
+     {blue, circle, 9}},
     // elements of the plate
     {"P1 with exact shear", "$P_1$, exact shear", "", {vermillion, square, 10}},
     {"P1 with one-point shear", "$P_1$, shear at one point", "", {olive, down_triangle, 6}},

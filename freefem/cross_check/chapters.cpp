@@ -289,4 +289,56 @@ Numbers mixed(int cells, double epsilon, const std::filesystem::path& folder) {
   return numbers;
 }
 
+Numbers interior_penalty(int cells, double epsilon, const std::filesystem::path& folder) {
+  const Space space(unstructured_mesh(cells), discontinuous_p1());
+  const TriangleMesh& mesh = space.mesh();
+  const auto file = folder / "mesh.freefem.msh";
+  write_freefem_mesh(file, mesh);
+  run("35_interior_penalty",
+      {"-mesh", file, "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+  const ScriptTable summary = read_table(folder / "summary.csv", 2);
+  if (summary.rows.rows() != 2)
+    throw Error(fmt::format("summary.csv: {} rows; accepted 2", summary.rows.rows()));
+  Points centroids(mesh.triangle_count(), 2);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    centroids.row(t) = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3));
+  Numbers numbers;
+  const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
+  Eigen::Index row = 0;
+  for (const auto& [name, penalised] :
+       {std::pair{"whole", PenalisedJump::whole}, {"mean", PenalisedJump::mean}}) {
+    const VariationalInequality problem =
+        antilock::assemble(scene, space, InteriorPenalty{3, penalised});
+    const Solution ours = active_set(problem);
+    numbers.took("sum");
+    numbers.solved(space, ours);
+    numbers.freefem_seconds += summary.column("seconds")(row);
+    numbers.relative(fmt::format("{}: largest u", name), ours.u(problem.bounds.unknowns).maxCoeff(),
+                     summary.column("largest")(row));
+    numbers.relative(fmt::format("{}: contact force", name), ours.lambda.sum(),
+                     summary.column("force")(row));
+    ++row;
+    Eigen::MatrixX3d values(mesh.triangle_count(), 3);  // u, d/dx u, d/dy u at the centroids
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      const Eigen::Vector3d u = ours.u(space.cell_dofs().row(t));
+      values(t, 0) = u.mean();
+      values.row(t).tail<2>() = -2 * u.transpose() * barycentric_gradients(mesh, t);
+    }
+    const ScriptTable theirs = read_table(folder / fmt::format("{}.csv", name));
+    Points places(theirs.rows.rows(), 2);
+    places << theirs.column("x"), theirs.column("y");
+    const std::vector<int> order = match(centroids, places);
+    Eigen::Index column = 0;
+    for (const char* what : {"u", "dx", "dy"}) {
+      const Eigen::VectorXd other = theirs.column(what)(order);
+      const double largest = values.col(column).cwiseAbs().maxCoeff();
+      for (int t = 0; t < mesh.triangle_count(); ++t)
+        numbers.all.push_back({fmt::format("{}: {} on triangle {}", name, what, t),
+                               values(t, column), other(t), largest});
+      ++column;
+    }
+  }
+  return numbers;
+}
+
 }  // namespace antilock::freefem

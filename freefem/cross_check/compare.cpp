@@ -360,6 +360,11 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
                   "contact force",
                   cells, cells + 1),
       freefem::glued_strings(cells, folder));
+  add("35_interior_penalty",
+      fmt::format("P1dc unstructured, h = 1/{}, epsilon = 0.01, whole jump and mean: u, slopes, "
+                  "contact force",
+                  half),
+      freefem::interior_penalty(half, 1e-2, folder));
   return lines;
 }
 

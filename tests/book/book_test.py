@@ -497,7 +497,7 @@ class LiveFigure(Book):
             return [float(number) for number in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", self.run_script(said, kind))]
 
         # at a telephone's width they stand as wide as it is; what they answer is the same
-        for kind in ("string", "move", "kernel", "beam", "friction", "accuracy", "models", "bound", "degree", "rubber"):
+        for kind in ("string", "move", "kernel", "penalty", "beam", "friction", "accuracy", "models", "bound", "degree", "rubber"):
             with self.subTest(kind=kind):
                 open_at(kind, 375)
         open_at("string")

@@ -451,6 +451,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"32_coating",
        {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "P2_summary.csv", "P1_deformed.eps"}},
       {"33_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
+      {"35_interior_penalty", {"whole.csv", "mean.csv", "summary.csv", "whole.eps", "mean.eps"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {
     const TemporaryFolder folder;
@@ -513,6 +514,10 @@ TEST(FreeFemScripts, WriteTheNumbersOfTheLibrary) {
   same([](Path folder) { return freefem::estimates(8, folder); }, 1e-9);
   same([](Path folder) { return freefem::contact_sets(folder); }, 1e-9);
   same([](Path folder) { return freefem::errors_at_unknowns(folder); }, 1e-9);
+  // summed into one matrix in FreeFEM: at epsilon = 1e-2 that costs four digits of sixteen, at 1
+  // none
+  for (const double epsilon : {1.0, 1e-2})
+    same([&](Path at) { return freefem::interior_penalty(8, epsilon, at); }, 1e-9);
   // two ways to integrate the glue (Gauss points here, P1dc there), one bilinear form
   same([](Path folder) { return freefem::glued_strings(16, folder); }, 1e-8);
 }

@@ -71,6 +71,10 @@
 // these it applies, and asks nothing of the mesh but good angles:
 //
 // $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^{nc,ε}‖_{1,Ω_h} = 0.   \text{(Theorem 7)} $$
+//
+// The element jumps, but only with mean 0 on each edge.
+// [Chapter 35](../35_interior_penalty/35_interior_penalty.cpp) shows that this is the right
+// condition: a method that restricts the whole jump locks.
 
 #include "antilock/measure/residual.hpp"
 #include "course/course.hpp"

@@ -111,6 +111,29 @@ antilock.figures.kernel = (box) => antilock.asked(box, {
   },
 });
 
+antilock.figures.penalty = (box) => antilock.asked(box, {
+  title: "Penalise the whole jump, or its mean", stem: "35_interior_penalty",
+  controls: {
+    epsilon: { label: "ε", range: [-6, 0, 0.25], start: -2, power: true, zero: true },
+    gamma: { label: "γ", values: [1.5, 3, 6, 12, 48], start: 3 },
+    mesh: { label: "mesh", values: ["staggered", "jittered", "structured"], start: "staggered" },
+    cells: { label: "1/h", values: [4, 8, 16], start: 8 },
+  },
+  keys: { exact: "exact", p1: "the whole jump penalised", cr: "its mean penalised" },
+  make(place) {
+    const chart = antilock.chart(place, { title: "Displacement of the contact boundary",
+      x: { range: [0, 1], ticks: [0, 0.25, 0.5, 0.75, 1], name: "x" },
+      y: { range: [-0.02, 0.14], ticks: [0, 0.05, 0.1], name: "u" } });
+    return ({ said, tables: { points } }) => {
+      for (const [name, column] of [["exact", "exact"], ["p1", "whole"], ["cr", "mean"]]) {
+        const curve = points.map((row) => [row.x, row[column]]);
+        chart.curve(name, curve, { markers: name !== "exact" });
+      }
+      chart.said(said);
+    };
+  },
+});
+
 antilock.figures.beam = (box) => antilock.asked(box, {
   title: "A thinner beam, integrated in full and reduced", stem: "25_beam",
   controls: { epsilon: { label: "ε", range: [-8, -1, 0.25], start: -4, power: true, zero: true }, cells: { label: "cells", values: [8, 16, 32, 64], start: 16 } },
