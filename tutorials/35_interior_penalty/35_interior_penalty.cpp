@@ -9,10 +9,10 @@
 // it), [07](../07_kernel/07_kernel.cpp) (kernel on the layer),
 // [08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) (Crouzeix-Raviart).
 //
-// **The picture.** Twice the same mesh, the same functions, the same penalty parameter:
-// discontinuous P1 with an interior penalty, at ε = 1e-6. *On the left each jump is
-// penalised as it is, and the method locks. On the right only its mean over each edge is
-// penalised, and the method does not lock.*
+// **The picture.** Discontinuous P1 with an interior penalty at ε = 1e-6. Mesh, functions
+// and penalty parameter are the same on both sides. *On the left each jump is penalised as
+// it is, and the method locks. On the right only its mean over each edge is penalised, and
+// the method does not lock.*
 //
 // :figure: interior_penalty
 //
@@ -130,10 +130,12 @@
 // $$ \hat u = \text{ the solution of Crouzeix-Raviart, for every } γ > 1, $$
 //
 // and $m$ is 0 where there is no load, as in the layer. Elsewhere it falls like $1/γ$. The
-// extra unknowns buy nothing: if the mean is set to zero, Crouzeix-Raviart is left, and if
-// it is penalised, too. Hansbo and Larson split the penalty of the jump into that of its
-// mean and a second one, for elasticity, where Crouzeix-Raviart needs the other part of the
-// jump ([chapter 26](../26_elasticity/26_elasticity.cpp)).
+// additional unknowns improve nothing: Crouzeix-Raviart is left if the mean is set to zero,
+// and also if it is penalised. Hansbo and Larson split the penalty of the jump into that of
+// its mean and a second one, for elasticity, where Crouzeix-Raviart needs the other part of
+// the jump ([chapter 26](../26_elasticity/26_elasticity.cpp)). They found that
+// Crouzeix-Raviart is the limit for a large penalty of the mean. Here, with constant
+// stiffness on each side of Σ, the averages do not even depend on γ.
 //
 // ## Two methods with other names
 //
@@ -417,8 +419,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :output: mean of the jump less
 //
-// Twice as many unknowns give no more than Crouzeix-Raviart. The two hybrid methods give
-// the same as well:
+// Twice as many unknowns are not more accurate than Crouzeix-Raviart. The two hybrid
+// methods have the same solution as well:
 //
 // :output: three methods
 //
@@ -434,13 +436,19 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Further reading
 //
+// - D. N. Arnold, *An interior penalty finite element method with discontinuous elements*,
+//   SIAM J. Numer. Anal. 19 (1982), 742-760,
+//   [10.1137/0719052](https://doi.org/10.1137/0719052).
 // - D. N. Arnold, F. Brezzi, B. Cockburn and L. D. Marini, *Unified analysis of
 //   discontinuous Galerkin methods for elliptic problems*, SIAM J. Numer. Anal. 39 (2002),
 //   1749-1779, [10.1137/S0036142901384162](https://doi.org/10.1137/S0036142901384162). The
-//   first method of this page is their IP method.
+//   first method of this page is their IP method, with weights on Σ.
 // - P. Hansbo and M. G. Larson, *Discontinuous Galerkin and the Crouzeix-Raviart element:
 //   application to elasticity*, ESAIM: M2AN 37 (2003), 63-72,
 //   [10.1051/m2an:2003020](https://doi.org/10.1051/m2an:2003020). The second method.
+// - S. C. Brenner, L. Owens and L.-Y. Sung, *A weakly over-penalized symmetric interior
+//   penalty method*, Electron. Trans. Numer. Anal. 30 (2008), 107-127. They penalise only
+//   the mean of the jump, with a higher power of $1/h$.
 // - D. A. Di Pietro, A. Ern and S. Lemaire, *An arbitrary-order and compact-stencil
 //   discretization of diffusion on general meshes based on local reconstruction operators*,
 //   Comput. Methods Appl. Math. 14 (2014), 461-472,
@@ -448,6 +456,9 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // - D. N. Arnold and F. Brezzi, *Mixed and nonconforming finite element methods:
 //   implementation, postprocessing and error estimates*, RAIRO M2AN 19 (1985), 7-32,
 //   [10.1051/m2an/1985190100071](https://doi.org/10.1051/m2an/1985190100071).
+// - K. Shahbazi, *An explicit expression for the penalty parameter of the interior penalty
+//   method*, J. Comput. Phys. 205 (2005), 401-407,
+//   [10.1016/j.jcp.2004.11.017](https://doi.org/10.1016/j.jcp.2004.11.017).
 
 #include "answers.hpp"
 
