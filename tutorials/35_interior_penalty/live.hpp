@@ -16,7 +16,7 @@ void on_contact(const tutorial::Options& options, tutorial::Report&) {
   points.write(options.out / "points.csv");
   const double height = exact.solution.max_on_contact();
   fmt::print(
-      "Of the ridge {:.3f} is kept if the whole jump is penalised, and {:.3f} if its mean "
+      "{:.3f} of the ridge is kept if the whole jump is penalised, and {:.3f} if its mean "
       "is.\n",
       points.max("whole") / height, points.max("mean") / height);
 }
