@@ -386,7 +386,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   report.claim_within(std::max(hybrids.max("displacement"), hybrids.max("stress")), 0, 1e-8,
                       "three methods, one displacement and one stress (proved):");
   report.claim_orders(mean.rows, "worst", 0.8, 1.2,
-                      "mean of the jump: worst error over epsilon");
+                      "mean of the jump: worst error over epsilon (observed)");
   // The layer keeps a hundredth of its ridge, so the error is at least nine tenths of the
   // ridge's norm.
   const double ridge = layer_norm(exact.back().solution);
