@@ -40,10 +40,14 @@ struct DoubleDoubleVector {
       : high(std::move(x)), low(Eigen::VectorXd::Zero(high.size())) {}
   Eigen::Index size() const { return high.size(); }
   DoubleDouble operator()(Eigen::Index i) const { return {high(i), low(i)}; }
-  void set(Eigen::Index i, double x) { high(i) = x, low(i) = 0; }
+  void set(Eigen::Index i, double x) {
+    high(i) = x;
+    low(i) = 0;
+  }
   void add(Eigen::Index i, DoubleDouble x) {
     const DoubleDouble sum = (*this)(i) + x;
-    high(i) = sum.high, low(i) = sum.low;
+    high(i) = sum.high;
+    low(i) = sum.low;
   }
   DoubleDoubleVector& operator+=(const Eigen::VectorXd& x) {
     for (Eigen::Index i = 0; i < size(); ++i) add(i, {x(i), 0});

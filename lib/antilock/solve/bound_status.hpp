@@ -111,10 +111,10 @@ struct ShiftedBounds : BoundLimits {
       throw Error(
           fmt::format("contact: the status {} of bound {} is the last one; there is none beyond",
                       static_cast<int>(status), i));
-    if (is_equation(i))
-      return status != BoundStatus::at_lower ? BoundStatus::at_lower
-             : up                            ? BoundStatus::slip_above
-                                             : BoundStatus::slip_below;
+    if (is_equation(i)) {
+      if (status != BoundStatus::at_lower) return BoundStatus::at_lower;
+      return up ? BoundStatus::slip_above : BoundStatus::slip_below;
+    }
     return static_cast<BoundStatus>(static_cast<int>(status) + (up ? 1 : -1));
   }
 

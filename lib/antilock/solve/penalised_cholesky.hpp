@@ -69,10 +69,16 @@ class PenalisedCholesky {
   /// unknowns, in their order.
   const SparseCholesky& cholesky() const;
   /// Returns the lower triangular trailing block of the factor (C x C).
-  const Eigen::MatrixXd& contact_block() const { return cholesky(), contact_block_; }
+  const Eigen::MatrixXd& contact_block() const {
+    cholesky();
+    return contact_block_;
+  }
   /// Returns the Schur complement of the contact unknowns in K (C x C); contact_block() is its
   /// Cholesky factor.
-  const Eigen::MatrixXd& schur() const { return cholesky(), schur_; }
+  const Eigen::MatrixXd& schur() const {
+    cholesky();
+    return schur_;
+  }
 
   int factorisations() const { return factor_.factorisations(); }  ///< numeric ones so far
   double analyse_seconds() const { return factor_.analyse_seconds(); }
