@@ -127,7 +127,13 @@ py::tuple run(const std::string& text, const std::string& folder) {
                   "triangles"_a = answer.space.mesh().triangles);
   if (file.scene.contact()) arrays["contact"] = contact_table(normal_contact(answer));
   answer.solution.p.conservativeResize(answer.problem.parametric_row_count());
-  arrays["u"] = given(answer.solution.u);
+  if (answer.space.element().nodal()) {
+    arrays["u"] = given(answer.solution.u);
+  } else {  // the unknowns are means
+    Eigen::VectorXd values = values_at_dofs(answer.space, answer.solution.u);
+    arrays["u"] = given(values);
+    arrays["mean"] = given(answer.solution.u);
+  }
   arrays["p"] = given(answer.solution.p);
   return py::make_tuple(arrays, summary);
 }

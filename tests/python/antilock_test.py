@@ -75,6 +75,20 @@ def test_solve_of_the_matrices_is_run():
     assert np.array_equal(np.flatnonzero(found.active), np.flatnonzero(found.lambda_))
 
 
+def test_an_element_with_means_has_values_and_means():
+    scene = SCENE.replace('"CR"', '"M2"')
+    problem = antilock.assemble(scene)
+    arrays, _ = antilock.run(scene)
+    lower = np.full(len(problem.load), -np.inf)
+    lower[problem.contact] = 0
+    found = antilock.solve(problem.a1, problem.b, problem.m, problem.load, compliance=1e-8,
+                           fixed=dict.fromkeys(problem.fixed, 0), lower=lower)
+    assert abs(found.u - arrays["mean"]).max() <= 1e-9 * abs(found.u).max()  # both are solved to 1e-10
+    # a mean differs from the value by second derivatives times h^2 / 36 or so
+    assert 1e-5 < abs(arrays["u"] - arrays["mean"]).max() < 0.05 * abs(arrays["u"]).max()
+    assert arrays["points"].shape == (len(arrays["u"]), 2)
+
+
 def bounded_string(lower, upper, fixed={0: 0, 7: 0}):
     n = 8
     a1 = 2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1)

@@ -120,7 +120,7 @@ std::string edge(const std::string& group, const std::string& what) {
 // u = 3 - 2 x, by what holds at the left, a spring at the right (-u_x = -2 = -k u, u(1) = 1) or the
 // same force, nothing above and below: in every space exactly.
 TEST(Bodies, HoldPullAndSpringOnTheEdgesOfAGroup) {
-  for (const std::string element : {"P1", "CR", "P2", "P3", "P4"})
+  for (const std::string element : {"P1", "CR", "P2", "P3", "P4", "M2"})
     for (const std::string right :
          {"spring = \"2\"", "traction = \"-2 + 0*x\"", "displacement = \"1\""}) {
       const TemporaryFolder folder;

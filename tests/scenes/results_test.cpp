@@ -206,6 +206,23 @@ INSTANTIATE_TEST_SUITE_P(All, EveryCombination,
                                           testing::Values("structured", "unstructured", "layered"),
                                           testing::Values("P1", "CR", "P2")));
 
+// The unknowns of hybrid BDM1 are means: the file has the values at the points, too.
+TEST(Results, OfAnElementWithMeansHaveValuesAndMeans) {
+  const SceneRun run(scene(layer("1e-3") + "[contact]\n", structured(8), "element = \"M2\"\n"));
+  const auto summary = run.summary();
+  EXPECT_EQ(summary["element"], "BDM1-hybrid");
+  const Csv solution = read_csv(run.results / "solution.csv");
+  EXPECT_EQ(solution.header, "x,y,u,mean");
+  const Space space(read_msh((run.results / "mesh.msh").string()), hybrid_bdm1());
+  ASSERT_EQ(solution.rows.rows(), space.size());
+  const Eigen::VectorXd means = solution.rows.col(3);
+  EXPECT_EQ((values_at_dofs(space, means) - solution.rows.col(2)).cwiseAbs().maxCoeff(), 0);
+  EXPECT_EQ(solution.rows.col(2).maxCoeff(), summary["u_max"].get<double>());
+  const Csv contact = read_csv(run.results / "contact.csv");
+  EXPECT_EQ(contact.rows.rows(), 16);
+  EXPECT_GE(contact.rows.col(2).minCoeff(), 0);
+}
+
 TEST(Results, NameTheWholeQuestion) {
   const SceneRun run("title = \"a title\"\n" +
                      scene(layer("1e-3") + "[contact]\ngap = \"0.01*x\"\n", structured(8),

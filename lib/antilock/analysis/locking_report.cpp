@@ -17,6 +17,10 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
   const TriangleMesh& mesh = result.space.mesh();
   if (!scene.epsilon()) return std::nullopt;
   if (!(scene.layer_depth() > 0)) return LockingReport{"no layer mesh: nothing here can lock"};
+  if (&element == &hybrid_bdm1())
+    return LockingReport{
+        element.name() +
+        " does not lock: a motion without strain per layer triangle, on any mesh (Theorem 4)"};
   if (!element.conforming())
     return LockingReport{
         element.name() +

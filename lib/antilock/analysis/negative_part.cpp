@@ -18,7 +18,7 @@ NegativePart negative_part(const Space& space, VariationalInequality problem,
   const Element& element = space.element();
   const bool quadratic = element.degree() == 2;
   if (element.conforming() && element.degree() == 1) return {};
-  if (element.degree() > 2)
+  if (element.degree() > 2 || !element.nodal())
     throw Error("negative part on Gamma_C: element " + element.name() +
                 " is not accepted; P1, P2 or CR");
   const std::vector<ContactEdge> edges = contact_edges(space.mesh());

@@ -11,7 +11,7 @@
 namespace antilock {
 
 Eigen::SparseMatrix<double> h1_gram_matrix(const Space& space) {
-  const Quadrature& rule = triangle_rule(2 * space.element().degree());
+  const Quadrature& rule = triangle_rule(2 * space.element().basis_degree());
   // int phi_i phi_j is the same on every triangle but for the area
   const Eigen::Index m = space.element().dofs();
   Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(m, m);

@@ -36,10 +36,16 @@ void write_csv(const std::filesystem::path& path, const std::vector<std::string>
 
 void write_solution_csv(const std::filesystem::path& path, const Space& space,
                         const Eigen::VectorXd& u) {
-  if ((u.size() != space.size() && u.size() != 2 * space.size()) || !u.allFinite())
+  const bool two_components = u.size() == 2 * space.size() && space.element().nodal();
+  if ((u.size() != space.size() && !two_components) || !u.allFinite())
     throw Error(
         fmt::format("{}: u must be {} finite values, one an unknown; it has {}, {} of them finite",
                     path.string(), space.size(), u.size(), u.array().isFinite().count()));
+  if (!space.element().nodal()) {
+    Eigen::MatrixXd rows(space.size(), 4);
+    rows << space.dof_coordinates(), values_at_dofs(space, u), u;
+    return write_csv(path, {"x", "y", "u", "mean"}, rows);
+  }
   const Eigen::Index components = u.size() / space.size();
   Eigen::MatrixXd rows(space.size(), 2 + components);
   rows << space.dof_coordinates(), u.reshaped(space.size(), components);

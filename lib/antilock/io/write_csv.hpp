@@ -14,7 +14,8 @@ namespace antilock {
 void write_csv(const std::filesystem::path& path, const std::vector<std::string>& header,
                const Eigen::MatrixXd& rows);
 /// Writes one row per unknown of the space: `x,y,u`, or `x,y,u_x,u_y` for the 2 N values of a
-/// displacement on the N unknowns of a space.
+/// displacement on the N unknowns of a space. For an element whose unknowns are means the columns
+/// are `x,y,u,mean`: u is the value of the function at (x, y), and `mean` the unknown.
 void write_solution_csv(const std::filesystem::path& path, const Space& space,
                         const Eigen::VectorXd& u);
 

@@ -149,7 +149,7 @@ Eigen::VectorXd corner_values(const Space& space, const Eigen::VectorXd& u) {
 }
 
 /// The contact pressure at the points of the grid: at a vertex its own, on a Crouzeix-Raviart edge
-/// that of the edge.
+/// that of the edge, and at the ends of an edge of hybrid_bdm1 those of its two unknowns.
 Eigen::VectorXd point_pressure(const Space& space, const Eigen::VectorXd& pressure, bool shared) {
   const TriangleMesh& mesh = space.mesh();
   Eigen::VectorXd of_unknown = Eigen::VectorXd::Zero(space.size());
@@ -157,11 +157,16 @@ Eigen::VectorXd point_pressure(const Space& space, const Eigen::VectorXd& pressu
   if (shared) return of_unknown.head(mesh.vertex_count());
   Eigen::VectorXd values =
       Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.triangle_count()));
-  for (const int edge : space.contact_dofs()) {
+  const int per_edge = space.element().dofs_per_edge();  // 1 or 2
+  for (int edge = 0; edge < mesh.edge_count(); ++edge) {
+    if (mesh.edge_tag[edge] != EdgeTag::contact) continue;
     const int triangle = mesh.edge_triangles(edge, 0);
-    for (int i = 0; i < 3; ++i)
-      if (mesh.triangle_edges(triangle, i) == edge)
-        values(3 * triangle + (i + 1) % 3) = values(3 * triangle + (i + 2) % 3) = of_unknown(edge);
+    for (int i = 0; i < 3; ++i) {
+      if (mesh.triangle_edges(triangle, i) != edge) continue;
+      const auto first = space.cell_dofs().row(triangle).segment(per_edge * i, per_edge);
+      values(3 * triangle + (i + 1) % 3) = of_unknown(first(0));
+      values(3 * triangle + (i + 2) % 3) = of_unknown(first(per_edge - 1));
+    }
   }
   return values;
 }

@@ -190,7 +190,9 @@ void add_displacements(VariationalInequality& problem, const Scene& scene, const
       for (Eigen::Index j = 0; j < nodes.rows(); ++j)
         if (const int unknown = space.cell_dofs()(t, j); nodes(j, i) == 0)
           values.give(unknown, mesh.edge_tag[e],
-                      prescribed_on(scene, mesh, e, space.dof_coordinates().row(unknown)));
+                      dof_value(space, t, j, [&](const Eigen::RowVector2d& x) {
+                        return prescribed_on(scene, mesh, e, x);
+                      }));
     }
   values.for_each([&](int unknown, double value) {
     const auto place =
@@ -243,14 +245,17 @@ void add_layer(VariationalInequality& problem, const StiffLayer& layer, const Sp
 void add_contact(VariationalInequality& problem, const UnilateralContact& contact,
                  const Space& space) {
   const Eigen::VectorXd x = space.dof_coordinates().col(0)(space.contact_dofs());
-  problem.bounds = Bounds::lower_on(space.contact_dofs(), -x.unaryExpr(contact.gap));
+  const auto dofs_of = [&](const Profile& profile) {
+    return dof_values(space, space.contact_dofs(), [&](double at, double) { return profile(at); });
+  };
+  problem.bounds = Bounds::lower_on(space.contact_dofs(), -dofs_of(contact.gap));
   const Eigen::VectorXd& lower = problem.bounds.lower;
   for (Eigen::Index i = 0; i < x.size(); ++i)
     if (!std::isfinite(lower(i)))
       throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
   if (!contact.upper_obstacle) return;
   Eigen::VectorXd& upper = problem.bounds.upper;
-  upper = x.unaryExpr(contact.upper_obstacle);
+  upper = dofs_of(contact.upper_obstacle);
   // where two formulas say the same, the round-off of one must not put the ceiling below the
   // obstacle
   const Eigen::ArrayXd round_off = 1e-12 * lower.array().abs().max(1);

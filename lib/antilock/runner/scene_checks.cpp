@@ -393,12 +393,15 @@ std::string range_warning(const SceneFile& file, const Space& space, const Solut
       pull(stiff->load, Region::layer) > 1e-3 * pull(file.scene.body().load, Region::body))
     return "";
   const TriangleMesh& mesh = space.mesh();
-  Eigen::AlignedBox1d around, inside;  // u_h at the edges around the layer, and within it
+  const int per_edge =
+      space.element().dofs_per_edge();  // the first unknowns, as none are at vertices
+  Eigen::AlignedBox1d around, inside;   // u_h at the edges around the layer, and within it
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (const int t = mesh.edge_triangles(e, 0);
         mesh.region[t] == Region::layer || mesh.edge_tag[e] == EdgeTag::sigma)
-      (mesh.edge_tag[e] == EdgeTag::interior ? inside : around)
-          .extend(Eigen::Matrix<double, 1, 1>(solution.u(e)));
+      for (int k = 0; k < per_edge; ++k)
+        (mesh.edge_tag[e] == EdgeTag::interior ? inside : around)
+            .extend(Eigen::Matrix<double, 1, 1>(solution.u(per_edge * e + k)));
   const double size =
       solution.u.lpNorm<Eigen::Infinity>();  // an empty box is infinitely far from everything
   const double off = std::max(around.min()(0) - inside.min()(0), inside.max()(0) - around.max()(0));

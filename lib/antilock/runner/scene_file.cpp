@@ -487,6 +487,7 @@ MethodRequest read_method(const Section& section) {
   MethodRequest method;
   const bool accurate = section.has("accuracy");
   method.element = section.has("element") || !accurate ? section.one_of("element") : "CR";
+  if (method.element == "M2") method.element = hybrid_bdm1().name();
   method.solver = section.one_of("solver");
   read_accuracy(section, method);
   method.tolerance = section.has("tolerance") || !accurate
@@ -541,6 +542,9 @@ void check_model(const Section& root, const PressedModel<Block>&, const Scene& s
   };
   if (method.accuracy || method.solver != "active-set")
     refuse("accuracy or another solver", "solver = \"active-set\"");
+  if (method.element == hybrid_bdm1().name())
+    refuse("element = \"" + method.element + "\", which has no Korn inequality",
+           "\"CR\", \"P1\" to \"P4\"");
   if (!scene.contact() || scene.contact()->upper_obstacle)
     refuse("a scene without contact, or with a ceiling", "a section [contact]");
   if (scene.body().stiffness)

@@ -28,7 +28,7 @@ struct MethodRequest {
   static constexpr double roughest_tolerance = 1e-3;
   /// The smallest tolerance that is reached. Below, double precision does not suffice.
   static constexpr double finest_tolerance = 1e-14;
-  std::string element = "P1";         ///< "P1" to "P4" or "CR"
+  std::string element = "P1";         ///< "P1" to "P4", "CR" or "BDM1-hybrid"
   std::string solver = "active-set";  ///< "active-set", "uzawa" or "petsc"
   /// The relative tolerance of the algebraic error, 0 < tolerance <= roughest_tolerance.
   double tolerance = 1e-10;

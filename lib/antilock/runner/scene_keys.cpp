@@ -178,8 +178,10 @@ std::vector<SceneKey> method_keys() {
   const double most = MethodRequest::roughest_tolerance;
   return {
       {.section = "method", .name = "element", .type = Type::choice, .does = "the element; with an accuracy CR",
-       .otherwise = "P1", .choices = {"P1", "CR", "P2", "P3", "P4"},
-       .line = 1, .example = "\"CR\"", .comment = "\"P1\" (default), \"CR\" (Crouzeix-Raviart), \"P2\", \"P3\" or \"P4\""},
+       .otherwise = "P1", .choices = {"P1", "CR", "P2", "P3", "P4", "BDM1-hybrid", "M2"},
+       .line = 1, .example = "\"CR\"",
+       .comment = "\"P1\" (default), \"CR\" (Crouzeix-Raviart), \"P2\", \"P3\", \"P4\" or \"BDM1-hybrid\", for short\n"
+                  "\"M2\": locks on no mesh; its unknowns are weighted means of u, not values"},
       {.section = "method", .name = "solver", .type = Type::choice,
        .does = "this library's solver, the paper's, or PETSc",
        .otherwise = "active-set", .choices = {"active-set", "uzawa", "petsc"},

@@ -114,8 +114,11 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
   s.h = mesh_width(file, result.space.mesh());
   s.unknowns = solution.counters.unknowns;
   s.energy = energy(result.problem, solution);
-  s.u_max = solution.u.maxCoeff();
-  s.u_min = solution.u.minCoeff();
+  const bool nodal = result.space.element().nodal();
+  const Eigen::VectorXd values =
+      nodal ? Eigen::VectorXd(solution.u) : values_at_dofs(result.space, solution.u);
+  s.u_max = values.maxCoeff();
+  s.u_min = values.minCoeff();
   if (file.scene.contact()) s.zone = contact_zone(normal_contact(result));
   const Eigen::Index size = result.space.size(), components = solution.u.size() / size;
   s.at.resize(static_cast<Eigen::Index>(file.at.size()), 2 + components);

@@ -7,10 +7,12 @@ namespace antilock {
 const Element& element(const std::string& name) {
   for (int degree = 1; degree <= 6; ++degree)
     if (lagrange(degree).name() == name) return lagrange(degree);
-  for (const Element* candidate : {&crouzeix_raviart(), &p1_bubble()})
+  for (const Element* candidate : {&crouzeix_raviart(), &p1_bubble(), &hybrid_bdm1()})
     if (candidate->name() == name) return *candidate;
+  if (name == "M2") return hybrid_bdm1();
   throw Error("element: \"" + name +
-              "\" is unknown; accepted \"P1\" to \"P6\", \"CR\" and \"P1+bubble\"");
+              "\" is unknown; accepted \"P1\" to \"P6\", \"CR\", \"P1+bubble\", \"BDM1-hybrid\" "
+              "and \"M2\"");
 }
 
 }  // namespace antilock

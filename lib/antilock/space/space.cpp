@@ -1,6 +1,7 @@
 #include "antilock/space/space.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace antilock {
@@ -78,6 +79,63 @@ Space::Numbering::Numbering(const TriangleMesh& mesh, const Element& element) {
   }
   std::stable_sort(contact_dofs.begin(), contact_dofs.end(),
                    [&](int a, int b) { return dof_coordinates(a, 0) < dof_coordinates(b, 0); });
+}
+
+double dof_value(const Space& space, int t, Eigen::Index i,
+                 const std::function<double(const Eigen::RowVector2d&)>& v) {
+  // the position of a shared unknown is the same from both triangles, to the last digit
+  if (space.element().nodal()) return v(space.dof_coordinates().row(space.cell_dofs()(t, i)));
+  const DofFunctional functional = space.element().functional(static_cast<int>(i));
+  double value = 0;
+  for (Eigen::Index q = 0; q < functional.weights.size(); ++q)
+    value +=
+        functional.weights(q) * v(point_in(space.mesh(), t, functional.points.row(q)).transpose());
+  return value;
+}
+
+Eigen::VectorXd dof_values(const Space& space, const std::vector<int>& dofs,
+                           const std::function<double(double, double)>& v) {
+  const Points& at = space.dof_coordinates();
+  Eigen::VectorXd values(static_cast<Eigen::Index>(dofs.size()));
+  if (space.element().nodal()) {
+    for (std::size_t k = 0; k < dofs.size(); ++k)
+      values(static_cast<Eigen::Index>(k)) = v(at(dofs[k], 0), at(dofs[k], 1));
+    return values;
+  }
+  constexpr int not_asked = -1;
+  std::vector<int> place(static_cast<std::size_t>(space.size()), not_asked);
+  for (std::size_t k = 0; k < dofs.size(); ++k)
+    place[static_cast<std::size_t>(dofs[k])] = static_cast<int>(k);
+  for (int t = 0; t < space.mesh().triangle_count(); ++t)
+    for (int i = 0; i < space.element().dofs(); ++i) {
+      // an unknown on an edge between two triangles is computed once
+      int& k = place[static_cast<std::size_t>(space.cell_dofs()(t, i))];
+      if (k == not_asked) continue;
+      values(k) =
+          dof_value(space, t, i, [&](const Eigen::RowVector2d& x) { return v(x(0), x(1)); });
+      k = not_asked;
+    }
+  return values;
+}
+
+Eigen::VectorXd dof_values(const Space& space, const std::function<double(double, double)>& v) {
+  std::vector<int> all(static_cast<std::size_t>(space.size()));
+  std::iota(all.begin(), all.end(), 0);
+  return dof_values(space, all, v);
+}
+
+Eigen::VectorXd values_at_dofs(const Space& space, const Eigen::VectorXd& u) {
+  if (space.element().nodal()) return u;
+  const Eigen::MatrixX3d points = space.element().support_points();
+  Eigen::MatrixXd basis(points.rows(), points.rows());  // at each point
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    basis.row(i) = space.element().basis(points.row(i)).transpose();
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(space.size()), triangles = sum;
+  for (int t = 0; t < space.mesh().triangle_count(); ++t) {
+    sum(space.cell_dofs().row(t)) += basis * u(space.cell_dofs().row(t));
+    triangles(space.cell_dofs().row(t)).array() += 1;
+  }
+  return sum.cwiseQuotient(triangles);
 }
 
 Eigen::Matrix<double, 3, 2> barycentric_gradients(const TriangleMesh& mesh, int t) {

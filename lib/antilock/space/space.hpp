@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -50,6 +51,20 @@ class Space {
 /// Returns whether two spaces have the same mesh: a shared one, or two that are equal in vertices,
 /// triangles, regions and tags.
 bool have_one_mesh(const Space& a, const Space& b);
+
+/// Returns the values of the unknowns of a function v(x, y) (N): v at the position of each unknown,
+/// or its weighted mean where the unknowns are means (Element::functional). The second function
+/// returns those of the named unknowns alone (as many as `dofs`).
+Eigen::VectorXd dof_values(const Space& space, const std::function<double(double, double)>& v);
+Eigen::VectorXd dof_values(const Space& space, const std::vector<int>& dofs,
+                           const std::function<double(double, double)>& v);
+/// Returns the value of local unknown i of triangle t for a function v of the position.
+double dof_value(const Space& space, int t, Eigen::Index i,
+                 const std::function<double(const Eigen::RowVector2d&)>& v);
+/// Returns the value of u_h at the position of each unknown (N), from the N unknowns u. It is u
+/// itself for an element whose unknowns are values. On an edge it is the mean of the values in the
+/// triangles beside it.
+Eigen::VectorXd values_at_dofs(const Space& space, const Eigen::VectorXd& u);
 
 /// Returns the gradients of the barycentric coordinates of a triangle (3 x 2). They are constant on
 /// it.

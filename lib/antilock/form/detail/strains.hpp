@@ -1,4 +1,5 @@
 #pragma once
+#include "antilock/core/error.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/form/sparse_assembly.hpp"
 #include "antilock/space/vector_space.hpp"
@@ -6,11 +7,15 @@
 namespace antilock {
 
 /// The derivatives (u_x, u_y, v_x, v_y) of the bases of both components on a triangle, at the
-/// points of a rule.
+/// points of a rule. The constructor throws Error for an element whose gradient is projected.
 class Gradients {
  public:
   Gradients(const VectorSpace& space, const Quadrature& rule)
       : space_(space), m_(space.x.element().dofs()), n_(space.y.element().dofs()) {
+    for (const Space* part : {&space.x, &space.y})
+      if (!part->element().nodal())
+        throw Error("strains: element " + part->element().name() +
+                    " has no Korn inequality; accepted: an element whose unknowns are values");
     for (const auto point : rule.points.rowwise()) {
       of_x_.push_back(space.x.element().derivative(point));
       of_y_.push_back(space.y.element().derivative(point));
