@@ -497,7 +497,7 @@ class LiveFigure(Book):
             return [float(number) for number in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", self.run_script(said, kind))]
 
         # at a telephone's width they stand as wide as it is; what they answer is the same
-        for kind in ("string", "move", "kernel", "penalty", "beam", "friction", "accuracy", "models", "bound", "degree", "rubber"):
+        for kind in ("string", "move", "kernel", "penalty", "beam", "friction", "accuracy", "models", "bound", "degree", "network", "rubber"):
             with self.subTest(kind=kind):
                 open_at(kind, 375)
         open_at("string")
@@ -549,6 +549,10 @@ class LiveFigure(Book):
         kept = values("degree", -4)
         self.assertEqual(kept, sorted(kept))
         self.assertLess(kept[0], 0.01)
+        open_at("network")
+        any_weights, columns, true_coordinate = values("network", -4)
+        self.assertLess(any_weights, 0.9)
+        self.assertTrue(0.98 < min(columns, true_coordinate) and max(columns, true_coordinate) < 1.000001, (columns, true_coordinate))
         open_at("rubber")
         parallel, arbitrary, _, cr, ks = values("rubber", -8)
         self.assertTrue(min(parallel, arbitrary) > 2 * cr and abs(ks / cr - 1) < 0.1, (parallel, arbitrary, cr, ks))

@@ -226,6 +226,16 @@ antilock.figures.degree = (box) => antilock.pointwise(box, {
   ask: antilock.column("16_degree", "kept"),
 });
 
+antilock.figures.network = (box) => antilock.pointwise(box, {
+  title: "The energy that networks with random weights have: every ε leaves its points", label: "energy of three networks",
+  min: -5, step: 0.25, stride: 0.5, asleep: true,
+  choices: { features: [25, 50, 100], draw: [1, 2, 3, 4, 5] }, start: { features: 50 },
+  keys: ["any weights", "half of the features are columns", "any weights, in the coordinate εy"],
+  axes: { title: "Share of the exact energy", x: { log: true, range: [8e-6, 1.3], ticks: [1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1], name: "ε" },
+    y: { range: [0, 1.1], ticks: [0, 0.5, 1], name: "energy" } },
+  ask: antilock.column("36_neural_network", "energy"),
+});
+
 antilock.figures.rubber = (box) => antilock.pointwise(box, {
   title: "The contact force as rubber loses its compressibility: every ε = 1/λ leaves its points", label: "contact force by element",
   min: -8, step: 0.25, stride: 1, zero: 1e-8, asleep: true, choices: { cells: [8, 16, 32] },
