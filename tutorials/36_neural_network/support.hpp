@@ -183,14 +183,16 @@ inline void show_draws(const std::filesystem::path& to, const Table& draws) {
 }
 
 /// Prints the training from seed to seed, and writes training.csv and trained.csv, the
-/// medians over the seeds for the picture.
+/// medians over the seeds for the picture. A median below 0 (J is above that of u = 0) has
+/// no place in the picture.
 inline void show_training(const std::filesystem::path& to, const Table& runs) {
   Table ranges({"epsilon", "steps", "energy", "ridge", "across"});
   Table medians({"epsilon", "steps", "energy"});
   for (const TableEntry& epsilon : runs.unique("epsilon"))
     for (const TableEntry& steps : runs.unique("steps")) {
       const Table some = runs.filter("epsilon", epsilon).filter("steps", steps);
-      medians.add({epsilon, steps, median(some.numbers("energy"))});
+      const double middle = median(some.numbers("energy"));
+      if (middle > 0) medians.add({epsilon, steps, middle});
       if (steps.number() < 100) continue;
       const std::string energy = range_text(some, "energy");
       const std::string ridge = range_text(some, "ridge");
