@@ -78,6 +78,13 @@ const Row rows[] = {
      "discontinuous $P_1$, mean of the jump",
      "mean of the jump",
      {blue, circle, 9}},
+    // Nitsche's contact condition
+    {"Nitsche", "Nitsche", "", {blue, circle, 7}},
+    {"Nitsche without the stiffness",
+     "Nitsche, γ without the stiffness",
+     "",
+     {indigo, down_triangle, 4}},
+    {"Nitsche below the bound", "Nitsche, γ below the bound", "", {vermillion, square, 4}},
     // elements of the plate
     {"P1 with exact shear", "$P_1$, exact shear", "", {vermillion, square, 10}},
     {"P1 with one-point shear", "$P_1$, shear at one point", "", {olive, down_triangle, 6}},

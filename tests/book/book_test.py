@@ -497,7 +497,7 @@ class LiveFigure(Book):
             return [float(number) for number in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", self.run_script(said, kind))]
 
         # at a telephone's width they stand as wide as it is; what they answer is the same
-        for kind in ("string", "move", "kernel", "penalty", "beam", "friction", "accuracy", "models", "bound", "degree", "network", "rubber"):
+        for kind in ("string", "move", "kernel", "penalty", "nitsche", "beam", "friction", "accuracy", "models", "bound", "degree", "network", "rubber"):
             with self.subTest(kind=kind):
                 open_at(kind, 375)
         open_at("string")
@@ -522,6 +522,11 @@ class LiveFigure(Book):
         whole, mean = says("penalty", r"^0\.0.* the whole jump", mesh="staggered", epsilon=-6)
         self.assertLess(whole, 0.1)
         self.assertAlmostEqual(mean, 1, delta=0.05)
+        open_at("nitsche")
+        right = says("nitsche", "^The error is .* is above the bound")[0]
+        self.assertLess(right, 0.02)  # that of P1 on 16 cells
+        wrong = says("nitsche", "^The error is .* is not above the bound", theta=1, gamma0=1)[0]
+        self.assertGreater(wrong, 0.8)
         open_at("beam")
         stiff, full, reduced = says("beam", "is 1.814 times too stiff", cells=32)  # as the chapter says
         self.assertAlmostEqual(full / reduced, 15, delta=1)

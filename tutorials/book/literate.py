@@ -256,7 +256,7 @@ class Page:
 # The live figures: the picture that stands in their place until the script has taken over, or where it cannot.
 STILLS = {"locking": "hero", "string": "string", "convergence": "figure9", "roundoff": "roundoff", "move": "ties", "kernel": "kernel",
           "models": "three_models", "degree": "degree", "bound": "effectivity", "accuracy": "asked_meshes", "beam": "beam",
-          "penalty": "interior_penalty_kept", "network": "neural_network",
+          "penalty": "interior_penalty_kept", "network": "neural_network", "nitsche": "nitsche",
           "rubber": "elasticity_force", "friction": "friction"}
 # What a figure may be told: what its inputs offer.
 SETTINGS = {"locking": {"mesh": "structured|unstructured|moved|layered", "cells": "8|16|24|32", "moved": r"0\.\d+",

@@ -134,6 +134,30 @@ antilock.figures.penalty = (box) => antilock.asked(box, {
   },
 });
 
+antilock.figures.nitsche = (box) => antilock.asked(box, {
+  title: "Choose the parameters of Nitsche's method", stem: "37_nitsche",
+  controls: {
+    epsilon: { label: "ε", range: [-8, 0, 0.25], start: -3, power: true },
+    gamma0: { label: "γ₀", values: [0.5, 1, 1.5, 2.5, 10, 100], start: 10 },
+    theta: { label: "θ", values: [1, 0, -1], start: 0 },
+    contains: { label: "γ contains", values: ["the stiffness", "h alone"], start: "the stiffness" },
+    cells: { label: "1/h", values: [8, 16, 32], start: 16 },
+  },
+  keys: { exact: "exact", p1: "Nitsche", cr: "active set" },
+  make(place) {
+    const chart = antilock.chart(place, { title: "Displacement of the contact boundary",
+      x: { range: [0, 1], ticks: [0, 0.25, 0.5, 0.75, 1], name: "x" },
+      y: { range: [-0.02, 0.14], ticks: [0, 0.05, 0.1], name: "u" } });
+    return ({ said, tables: { points } }) => {
+      for (const [name, column] of [["exact", "exact"], ["cr", "strong"], ["p1", "nitsche"]]) {
+        const curve = points.map((row) => [row.x, row[column]]);
+        chart.curve(name, curve, { markers: name !== "exact" });
+      }
+      chart.said(said);
+    };
+  },
+});
+
 antilock.figures.beam = (box) => antilock.asked(box, {
   title: "A thinner beam, integrated in full and reduced", stem: "25_beam",
   controls: { epsilon: { label: "ε", range: [-8, -1, 0.25], start: -4, power: true, zero: true }, cells: { label: "cells", values: [8, 16, 32, 64], start: 16 } },
