@@ -16,6 +16,7 @@
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/models/project_strain.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/proximal_galerkin.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "cross_check.hpp"
 #include "numbers.hpp"
@@ -223,6 +224,28 @@ Numbers glued_strings(int cells, const std::filesystem::path& folder) {
       numbers.all.push_back(
           {at + "contact force", ours.lambda.sum(), table.column("force")(row), load});
     }
+  }
+  return numbers;
+}
+
+Numbers proximal_steps(int cells, const std::filesystem::path& folder) {
+  run("34_solving_the_inequality", {"-cells", std::to_string(cells), "-out", folder});
+  const ScriptTable table = read_table(folder / "results.csv", 1);
+  const Space space(structured_mesh(cells), p1());
+  Numbers numbers;
+  for (const double epsilon : {1.0, 1e-2, 1e-6, 0.0}) {
+    const auto row = static_cast<Eigen::Index>(numbers.all.size() / 2);
+    if (row >= table.rows.rows()) throw Error("results.csv: accepted 4 rows");
+    const VariationalInequality problem =
+        assemble(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space);
+    const Solution ours = proximal_galerkin(problem);
+    const std::string at = fmt::format("epsilon = {}: ", epsilon);
+    numbers.took(table.names[row].substr(0, table.names[row].find(' ')));
+    numbers.solved(space, ours);
+    numbers.freefem_seconds += table.column("seconds")(row);
+    numbers.relative(at + "largest u on Gamma_C", bounded_values(problem.bounds, ours.u).maxCoeff(),
+                     table.column("ridge")(row));
+    numbers.relative(at + "contact force", ours.lambda.sum(), table.column("force")(row));
   }
   return numbers;
 }

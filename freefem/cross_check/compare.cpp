@@ -360,6 +360,11 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
                   "contact force",
                   cells, cells + 1),
       freefem::glued_strings(cells, folder));
+  add("34_solving_the_inequality",
+      fmt::format("P1 structured, h = 1/{}, 4 epsilons, proximal Galerkin: largest u on Gamma_C, "
+                  "contact force",
+                  half),
+      freefem::proximal_steps(half, folder));
   add("35_interior_penalty",
       fmt::format("P1dc unstructured, h = 1/{}, epsilon = 0.01, whole jump and mean: u, slopes, "
                   "contact force",

@@ -82,6 +82,9 @@ Numbers mixed(int cells, double epsilon, const std::filesystem::path& folder);
 std::vector<Numbers> graded_layers(int cells, const std::filesystem::path& folder);
 /// 33: two glued strings, both glues, epsilon from 1 to 1e-12: energy, largest |u|, contact force.
 Numbers glued_strings(int cells, const std::filesystem::path& folder);
+/// 34: proximal Galerkin, P1 on columns, epsilon = 1, 1e-2, 1e-6 and 0: largest u on Gamma_C,
+/// contact force.
+Numbers proximal_steps(int cells, const std::filesystem::path& folder);
 
 /// 35: discontinuous P1 on an unstructured mesh, the whole jump penalised and its mean: u and both
 /// derivatives at every centroid, relative to their largest value; largest u on Gamma_C, contact

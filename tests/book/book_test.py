@@ -497,7 +497,7 @@ class LiveFigure(Book):
             return [float(number) for number in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", self.run_script(said, kind))]
 
         # at a telephone's width they stand as wide as it is; what they answer is the same
-        for kind in ("string", "move", "kernel", "penalty", "nitsche", "beam", "friction", "accuracy", "models", "bound", "degree", "network", "rubber"):
+        for kind in ("string", "move", "kernel", "penalty", "nitsche", "beam", "friction", "accuracy", "models", "bound", "degree", "network", "solvers", "rubber"):
             with self.subTest(kind=kind):
                 open_at(kind, 375)
         open_at("string")
@@ -534,6 +534,10 @@ class LiveFigure(Book):
         open_at("friction")
         self.assertAlmostEqual(says("friction", "It sticks on 0.2")[0], 0.22, delta=0.011)
         self.assertEqual(says("friction", "It sticks on 0.00", rough=0)[0], 0)
+        open_at("solvers")
+        guess, proximal, newton = says("solvers", "The active set ends with guess 8. Proximal Galerkin ends with proximal step [0-9]+, after 43 ")
+        self.assertEqual((guess, newton), (8, 43))  # as the chapter's table says for 1/h = 32
+        says("solvers", "The active set ends with guess 1. Proximal Galerkin is refused", mesh="jittered")
         open_at("accuracy")
         asked, proved, *_ = says("accuracy", "Asked 10 %, proved")
         self.assertTrue(asked / 2 < proved <= asked)

@@ -451,6 +451,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"32_coating",
        {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "P2_summary.csv", "P1_deformed.eps"}},
       {"33_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
+      {"34_solving_the_inequality", {"results.csv"}},
       {"35_interior_penalty", {"whole.csv", "mean.csv", "summary.csv", "whole.eps", "mean.eps"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {

@@ -118,7 +118,9 @@ ByHand assemble_by_hand(const TriangleMesh& mesh) {
 // One *correction* solves $A_δ du = r_1 + δ^{-1} B^T M r_2$ and puts $dp = (B du - r_2)/δ$.
 // Insert both: after it $r_1 = 0$ and $r_2 = (ε² - δ) dp$. With $δ = ε²$ nothing would be
 // left over. When both residuals are 0 and the signs are right, $u$ and $p$ solve (26),
-// whatever $δ$ was. This is the *iterated penalty* method.
+// whatever $δ$ was. This is the *iterated penalty* method. It is an *augmented Lagrangian*
+// method: $p$ is the multiplier of the equation $B u = ε² p$, and a correction adds a
+// multiple of the residual of this equation to it.
 //
 // How fast? Let $r_1 = 0$, as after the first correction, and let $r_2$ be an eigenvector
 // of $B A_1^{-1} B^T M$ with the eigenvalue $σ$. A correction multiplies it by

@@ -26,6 +26,8 @@
 // mesh and assembly. A run that fails, or takes longer than the limit, is drawn as failed;
 // where time was the reason, finer meshes are not tried. No verdict is about seconds: they
 // depend on the machine.
+// [Chapter 34](../34_solving_the_inequality/34_solving_the_inequality.cpp) has the steps
+// and the seconds of further solvers.
 //
 // ## How many steps
 //

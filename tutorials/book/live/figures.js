@@ -190,6 +190,24 @@ antilock.figures.friction = (box) => antilock.asked(box, {
   },
 });
 
+antilock.figures.solvers = (box) => antilock.asked(box, {
+  title: "Two ways to one answer, step by step", stem: "34_solving_the_inequality",
+  controls: { step: { label: "step", range: [1, 24, 1], start: 1 }, epsilon: { label: "ε", range: [-8, -1, 0.25], start: -8, power: true, zero: true },
+    cells: { label: "1/h", values: [16, 32, 64], start: 32 }, mesh: { label: "mesh", values: ["structured", "jittered"], start: "structured" } },
+  keys: { p1: "active set", cr: "proximal Galerkin", exact: "answer" },
+  make(place) {
+    const chart = antilock.chart(place, { title: "Displacement along the boundary that may touch",
+      x: { range: [0, 1], ticks: [0, 0.25, 0.5, 0.75, 1], name: "x" }, y: { range: [-0.045, 0.065], ticks: [-0.04, -0.02, 0, 0.02, 0.04, 0.06], name: "u" } });
+    return ({ said, tables: { curves } }) => {
+      const along = (name) => [[0, 0], ...curves.map((row) => [row.x, row[name]]), [1, 0]];
+      chart.curve("exact", along("answer"));
+      chart.curve("p1", along("guess"));
+      chart.curve("cr", along("proximal"));
+      chart.said(said);
+    };
+  },
+});
+
 antilock.figures.accuracy = (box) => antilock.asked(box, {
   title: "Ask for an accuracy", stem: "22_ask_for_an_accuracy",
   controls: { asked: { label: "relative accuracy", values: [0.2, 0.1, 0.05, 0.02], start: 0.1 }, load: { label: "load", values: ["bump", "paper"], start: "bump" },

@@ -1,0 +1,53 @@
+#pragma once
+// The answers to the exercises of 34_solving_the_inequality, whose page includes this one:
+// to be read after predicting.
+
+const std::vector<tutorial::Exercise> exercises{
+    {"Proximal Galerkin of the library at epsilon = 0, P1 on columns, 1/h = 16, with alpha "
+     "= 1 "
+     "in every step: how many proximal steps in place of those with alpha = 2^k?",
+     "at least twice as many: near the end of contact, where the force is small, exp(psi) "
+     "falls by a constant factor per step, and not by the square of the last one",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const Space space(structured_mesh(16), p1());
+       const VariationalInequality problem = assemble(tutorial::paper_scene(0), space);
+       const std::size_t doubled = proximal_galerkin(problem).history.size();
+       ProximalGalerkinOptions options;
+       options.step_length = [](int) { return 1.0; };
+       options.max_proximal_steps = 10000;
+       const std::size_t constant = proximal_galerkin(problem, options).history.size();
+       report.claim(constant >= 2 * doubled, "{} proximal steps in place of {}", constant,
+                    doubled);
+     }},
+    {"The augmented Lagrangian at epsilon = 0, P1 on columns, 1/h = 32: multiply r by 100. "
+     "What happens to the outer "
+     "steps, and to the inner ones of the first outer step?",
+     "there are fewer outer steps, since each divides the error by at least 1 + r times "
+     "the smallest eigenvalue of F; "
+     "the first outer step becomes the whole active set iteration",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const Space space(structured_mesh(32), p1());
+       const OnContact p = tutorial::condense(assemble(tutorial::paper_scene(0), space));
+       const double r = 10 / p.f.diagonal().mean();
+       const Found soft = augmented_lagrangian(p, r),
+                   hard = augmented_lagrangian(p, 100 * r);
+       report.claim(hard.outer < soft.outer, "outer steps: {} in place of {}", hard.outer,
+                    soft.outer);
+       report.claim(hard.steps <= soft.steps, "linear systems in all: {} in place of {}",
+                    hard.steps, soft.steps);
+     }}};
+
+// ## Answers on paper
+//
+// **3.** Step $k$ minimises $α_k J(v) + D_h(v, u_{k-1})$. At the minimum
+// $α_k J'(u_k)(v - u_k) = ∑ h (ψ_{k-1} - ψ_k)_i (v - u_k)_i$ for every $v$. Put in $D_h$
+// and see that the right side is $D_h(v, u_k) + D_h(u_k, u_{k-1}) - D_h(v, u_{k-1})$
+// (the *three points identity*). With $v = u$ and $J(u) - J(u_k) ≥ J'(u_k)(u - u_k)$ this
+// gives $α_k (J(u_k) - J(u)) ≤ D_h(u, u_{k-1}) - D_h(u, u_k)$, since
+// $D_h(u_k, u_{k-1}) ≥ 0$. Add all steps: the right sides telescope to at most
+// $D_h(u, u_0)$. And $J(u_k)$ does not grow, because $v = u_{k-1}$ is a candidate of step
+// $k$. So the sum is at least $(α_1 + ... + α_k)(J(u_k) - J(u))$.
+//
+// **4.** $F = 0$: a force moves nothing. The active set sees $s = w = 0$ at every point, no
+// wrong sign, and ends after one guess. Uzawa's gradient is 0. Each is right about the
+// discrete problem: its only admissible function is 0.
