@@ -21,6 +21,7 @@ Caps caps(const Element& element) {
   if (&element == &p1()) return {2.6e-4, 1.1e-4, 1.9e-2};
   if (&element == &p2()) return {1.2e-6, 2.7e-7, 1.5e-4, 2};
   if (&element == &crouzeix_raviart()) return {5.0e-4, 6.5e-5, 1.7e-2};
+  if (&element == &hybrid_bdm1()) return {2.0e-6, 2.1e-7, 1.15e-4, 2};
   return {infinity, infinity, infinity, &element == &p3() ? 3 : 4};
 }
 
@@ -66,9 +67,9 @@ TEST(Convergence, HasTheOrderOfTheDegreeWhereTheLayerIsNotStiff) {
        {std::pair<Layer, Manufactured>{NoLayer{}, Manufactured::no_layer()},
         {StiffLayer{1}, Manufactured::stiff_layer(1)},
         {VentcelLayer{}, Manufactured::ventcel()}})
-    for (const Element* element : {&p1(), &crouzeix_raviart(), &p2()})
+    for (const Element* element : {&p1(), &crouzeix_raviart(), &p2(), &hybrid_bdm1()})
       for (const bool structured : {true, false})
-        if (element != &p2() || !std::holds_alternative<VentcelLayer>(layer))
+        if (element->degree() == 1 || !std::holds_alternative<VentcelLayer>(layer))
           check_convergence(layer, exact, *element, structured);
 }
 
@@ -81,6 +82,8 @@ TEST(Convergence, HasTheOrderOfTheDegreeAtEveryEpsilonWhereNothingLocks) {
     check(p1(), true);
     check(crouzeix_raviart(), true);
     check(crouzeix_raviart(), false);
+    check(hybrid_bdm1(), true);
+    check(hybrid_bdm1(), false);
   }
   for (const double epsilon : {1.0, 1e-2})
     for (const Element* element : {&p3(), &p4()})
