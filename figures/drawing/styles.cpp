@@ -46,6 +46,9 @@ const Row rows[] = {
     {"P3", "$P_3$", "", {olive, diamond, 6}},
     {"P4", "$P_4$", "", {black, triangle, 6}},
     {"hp", "$hp$", "", {green, square, 9}},
+    {"hat means", "bounds on hat means", "hat means", {blue, circle, 6}},
+    {"Gauss points", "bounds at Gauss points", "Gauss points", {vermillion, square, 6}},
+    {"BDM1-hybrid", "hybrid BDM1", "", {green, diamond, 6}},
     // methods of nearly incompressible elasticity
     {"P1 right diagonals", "$P_1$, right diagonals", "", {blue, circle, 9}},
     {"P1 crossed triangles", "$P_1$, crossed triangles", "", {indigo, down_triangle, 9}},

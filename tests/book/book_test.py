@@ -497,7 +497,7 @@ class LiveFigure(Book):
             return [float(number) for number in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", self.run_script(said, kind))]
 
         # at a telephone's width they stand as wide as it is; what they answer is the same
-        for kind in ("string", "move", "kernel", "penalty", "nitsche", "beam", "friction", "accuracy", "models", "bound", "degree", "network", "solvers", "rubber"):
+        for kind in ("string", "move", "kernel", "penalty", "nitsche", "beam", "friction", "accuracy", "models", "bound", "degree", "network", "solvers", "orders", "rubber"):
             with self.subTest(kind=kind):
                 open_at(kind, 375)
         open_at("string")
@@ -562,6 +562,11 @@ class LiveFigure(Book):
         any_weights, columns, true_coordinate = values("network", -4)
         self.assertLess(any_weights, 0.9)
         self.assertTrue(0.98 < min(columns, true_coordinate) and max(columns, true_coordinate) < 1.000001, (columns, true_coordinate))
+        open_at("orders")
+        affine, parabolas, seven = values("orders", -4)  # a Delaunay mesh, 1/h = 8
+        self.assertLess(4 * seven, min(affine, parabolas))
+        affine, parabolas, seven = values("orders", 0)
+        self.assertTrue(4 * parabolas < affine and abs(seven / parabolas - 1) < 0.3, (affine, parabolas, seven))
         open_at("rubber")
         parallel, arbitrary, _, cr, ks = values("rubber", -8)
         self.assertTrue(min(parallel, arbitrary) > 2 * cr and abs(ks / cr - 1) < 0.1, (parallel, arbitrary, cr, ks))

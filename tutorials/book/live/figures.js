@@ -278,6 +278,15 @@ antilock.figures.network = (box) => antilock.pointwise(box, {
   ask: antilock.column("36_neural_network", "energy"),
 });
 
+antilock.figures.orders = (box) => antilock.pointwise(box, {
+  title: "The energy error of three elements: every ε leaves its points", label: "the energy error by element",
+  min: -4, step: 0.25, stride: 0.5, asleep: true,
+  choices: { mesh: ["delaunay", "jittered", "rows", "columns", "structured"], cells: [8, 16] }, keys: ["Crouzeix–Raviart", "P2", "hybrid BDM1"],
+  axes: { title: "Energy error without contact", x: { log: true, range: [8e-5, 1.3], ticks: [1e-4, 1e-3, 1e-2, 1e-1, 1], name: "ε" },
+    y: { log: true, range: [1e-3, 1], ticks: [1e-3, 1e-2, 1e-1, 1], name: "energy norm" } },
+  ask: antilock.column("38_order_two", "energy"),
+});
+
 antilock.figures.rubber = (box) => antilock.pointwise(box, {
   title: "The contact force as rubber loses its compressibility: every ε = 1/λ leaves its points", label: "contact force by element",
   min: -8, step: 0.25, stride: 1, zero: 1e-8, asleep: true, choices: { cells: [8, 16, 32] },
