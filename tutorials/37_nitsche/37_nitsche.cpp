@@ -125,6 +125,7 @@
 //
 // $$ a_1(u, v) + (p, ∂_y v)
 //   - ∫_{Γ_C} \left( \frac{θ}{s} (p + [P]_+) ∂_y v + [P]_+ v \right) = (f, v), $$
+//
 // $$ (∂_y u, q) = ε^2 (p, q). $$
 //
 // Where $P > 0$, the sum $p + [P]_+$ is $-γ u$. The program writes it in this way, because
