@@ -1,6 +1,6 @@
 // # Solving the inequality
 //
-// Run: 34_solving_the_inequality                eight solvers, h from 1/8 to 1/64 (unstructured: 1/32), ε = 1, 1e-2, 1e-6 and 0
+// Run: 34_solving_the_inequality                eight solvers, 1/h from 8 to 64, four ε
 // Run: 34_solving_the_inequality --cells 32     the same down to 1/32
 // Run: 34_solving_the_inequality --exercise 1
 // Run: 34_solving_the_inequality --exercise 2
@@ -66,20 +66,20 @@ using Eigen::MatrixXd, Eigen::VectorXd, tutorial::Found, tutorial::OnContact;
 // linear, so the next iterate satisfies them exactly: $s_i = 0$ on the set of these points
 // and $λ_i = 0$ off it. This is the active set method of chapter 00, guess by guess
 // (Hintermüller, Ito and Kunisch 2002). SNESVI, the solver of PETSc that
-// [chapter 24](../24_past_one_machine/24_past_one_machine.cpp) runs, is a relative. After
-// one guess $s_i$ or $λ_i$ is 0, so that $c$ no longer matters. It converges as Newton's
-// method does near the answer, and it ends exactly: a guess that repeats itself is the
-// answer. (For an M-matrix chapter 00 proves that no guess comes back. Other matrices may
-// cycle.)
+// [chapter 24](../24_past_one_machine/24_past_one_machine.cpp) runs, is a method of the
+// same kind. After one guess $s_i$ or $λ_i$ is 0, so that $c$ no longer matters. The active
+// set method converges as Newton's method does near the answer, and it ends exactly: if two
+// guesses in a row are equal, they are the answer. (For an M-matrix chapter 00 proves that
+// no guess comes back. Other matrices may cycle.)
 //
 // *Near the answer* is the restriction. As ε → 0 the layer resists like a string (chapter
 // 04). Where a string lies on the obstacle it does not bend, so its force there is minus
-// the load, wherever the border of the set is. Only the last point of the set carries a
-// kink, and can find a wrong sign. So a guess moves the border by about one point. The
-// second guess is the set where the load presses down, $x > ½$, and contact begins at some
-// $c > ½$: some $(c - ½)/h$ guesses. At ε = 1 the force at a point depends on all others,
-// and the border jumps. The border of a coarse mesh is a good guess on a fine one: that is
-// the *nested* start of the library.
+// the load, wherever the border of the set is. Only at the last point of the set has the
+// string a kink, and only there can the force have a wrong sign. So a guess moves the
+// border by about one point. The second guess is the set where the load presses down,
+// $x > ½$, and contact begins at some $c > ½$: some $(c - ½)/h$ guesses. At ε = 1 the force
+// at a point depends on all others, and the border jumps. The border of a coarse mesh is a
+// good guess on a fine one. This is the *nested* start of the library.
 Found semismooth_newton(const OnContact& p, std::vector<bool> active) {
   const auto n = p.w.size();
   Found found{VectorXd::Zero(n), VectorXd::Zero(n)};
@@ -104,9 +104,9 @@ Found semismooth_newton(const OnContact& p, std::vector<bool> active) {
 // Uzawa's method goes down the gradient of $D$ and cuts λ at 0 (chapter 00). Its factor per
 // step is $1 - 2/κ$, with the condition number κ of $F$. *Nesterov's* method takes the
 // gradient at a point a little further along the last step, and its factor is about
-// $1 - 1/\sqrt κ$. The extrapolation may go uphill; where it does, it starts afresh
-// (O'Donoghue and Candès 2015). So the steps grow like $1/h$ where Uzawa's grow like
-// $1/h^2$.
+// $1 - 1/\sqrt κ$. The extrapolation may go uphill. Where it does, the method starts again
+// without extrapolation (O'Donoghue and Candès 2015). So its steps grow like $1/h$, and
+// Uzawa's like $1/h^2$.
 Found uzawa_on_contact(const OnContact& p, bool accelerated) {
   const VectorXd eigenvalues = symmetric_eigenvalues(p.f);
   const double most = std::max(eigenvalues.maxCoeff(), 1e-300);
@@ -191,7 +191,7 @@ Found augmented_lagrangian(const OnContact& p, double r) {
 // or *proximal Galerkin* method (Keith and Surowiec 2024; Dokken, Farrell, Keith,
 // Papadopoulos and Surowiec 2025), *lumped*: each point has a latent variable of its own,
 // so that the limit is the discrete problem of the other solvers. Below, ψ is a finite
-// element function, as its authors have it.
+// element function, as in these papers.
 //
 // How many proximal steps? Let $u_k$ be the iterates and $u$ the answer. Each step is a
 // minimum, and $J$ is convex, so
@@ -199,8 +199,8 @@ Found augmented_lagrangian(const OnContact& p, double r) {
 // $$ J(u_k) - J(u) ≤ D_h(u, u_0) / (α_1 + ... + α_k)   (proved, exercise 3). $$
 //
 // Neither $h$ nor ε stands there: with $α_k = 2^k$ each step halves the bound, on every
-// mesh and at every ε. What is asked is a solution of each step, so an *inner point*: some
-// force λ must make $s_i > 0$ at all points at once.
+// mesh and at every ε. Each step must have a solution, and for this an *inner point* is
+// needed: some force λ must make $s_i > 0$ at all points at once.
 Found proximal_by_hand(const OnContact& p) {
   const auto n = p.w.size();
   const double h = 1.0 / static_cast<double>(n + 1);
@@ -228,8 +228,8 @@ Found proximal_by_hand(const OnContact& p) {
 }
 
 // **As published**, $ψ_h$ is a function in P1 on $Γ_C$ too, and $u_h = e^{ψ_h}$ is asked in
-// the mean, $∫ u_h v = ∫ e^{ψ_h} v$ for all $v$ of its space. There are two answers then:
-// $u_h$, which is linear between the vertices and may sink a little below 0, and $e^{ψ_h}$,
+// the mean, $∫ u_h v = ∫ e^{ψ_h} v$ for all $v$ of this space. There are two answers then:
+// $u_h$, which is linear between the vertices and may be a little below 0, and $e^{ψ_h}$,
 // which is positive at every point. Let $N_{ij} = ∫ φ_i φ_j$ be the mass matrix of $Γ_C$.
 // The force at a vertex is $λ = N (ψ' - ψ)/α$, and the step reads
 //
@@ -267,10 +267,10 @@ Found proximal_published(const OnContact& p) {
 // $s$ and λ stay positive: a step goes 0.995 of the way to where the first of them would
 // vanish. The matrix is $F + \operatorname{diag}(s/λ)$. *Mehrotra's* choice (1992) of μ
 // needs no parameter: a trial step with $μ = 0$ tells how far one can go; if far, then μ is
-// small. Most solvers of quadratic programs do this. Compare the two matrices:
+// small. Compare the two matrices:
 // proximal Galerkin has $\operatorname{diag}(e^ψ)$, of the size $s$, and $F$ over a number
 // that grows. Here $s/λ = s^2/μ$ stands in its place: both are barriers, with the entropy
-// and with the logarithm. An interior point is needed here, too.
+// and with the logarithm. An inner point is needed here, too.
 Found interior_point(const OnContact& p) {
   const auto n = p.w.size();
   const double size = tutorial::size_of(p), flexible = p.f.diagonal().maxCoeff();
@@ -310,13 +310,13 @@ Found interior_point(const OnContact& p) {
 // All methods above have $F$, and a factor of the whole problem behind it. The simplest
 // method without any factor works on all unknowns and on products with
 // $K = A_1 + ε^{-2} B^T M B$ alone: *conjugate gradients* as long as the iterate stays
-// above the obstacle, a projected gradient step where it would sink below, and a gradient
-// step for the points that should be let go. Which of the three is next follows from the
+// above the obstacle, a projected gradient step where it would go below, and a gradient
+// step for the points that should be released. Which of the three is next follows from the
 // sizes of the gradient on the free points and on the touching ones. This is MPRGP
-// (*modified proportioning with reduced gradient projections*, Dostál and Schöberl 2005);
-// its rate is proved, and depends on the condition number of $K$ alone. That of $K$ is like
-// $ε^{-2} h^{-2}$ for small ε: a factor-free method feels the stiffness that $F$ has taken
-// away, and $K$ does not exist at ε = 0.
+// (*modified proportioning with reduced gradient projections*, Dostál and Schöberl 2005).
+// Its rate is proved there, and depends on the condition number of $K$ alone. This number
+// is like $ε^{-2} h^{-2}$ for small ε. So the number of products depends on ε, while all
+// entries of $F$ stay finite as ε → 0. At ε = 0 $K$ does not exist.
 Found mprgp(const SummedSystem& system, int bounded, int most_products) {
   const auto k = system.upper_triangle.selfadjointView<Eigen::Upper>();
   const VectorXd& b = system.load;
@@ -378,7 +378,7 @@ Found mprgp(const SummedSystem& system, int bounded, int most_products) {
 
 // ## The measurement
 //
-// Every solver on three spaces: P1 on columns, P1 on the unstructured mesh, which locks,
+// All solvers run on three spaces: P1 on columns, P1 on the unstructured mesh, which locks,
 // and Crouzeix-Raviart (CR) on the same mesh. The answers are compared with that of
 // `active_set` on the whole problem.
 void solve_one(const Method& method, double epsilon, int cells, std::vector<bool>& coarse,
@@ -496,8 +496,9 @@ void judge(const Table& runs, tutorial::Report& report) {
 // :output: P1 on columns, epsilon = 0
 // :figure: solver_steps
 //
-// (a) The active set from nothing. At ε = 0 and 1/h = 64 it needs 15 guesses, and twice as
-// many on the next mesh: the guesses are $(c - ½)/h + 2$, up to 1. At ε = 1 they are 5.
+// (a) The active set without a first guess. At ε = 0 and 1/h = 64 it needs 15 guesses, and
+// twice as many on the next mesh: there are $(c - ½)/h + 2$ guesses, up to 1. At ε = 1
+// there are 5.
 // :number: 15 = table "P1 on columns, epsilon = 0" 0.01562 "solver=active set"
 // :number: 5 = table "P1 on columns, epsilon = 1" 0.01562 "solver=active set"
 //
@@ -509,20 +510,19 @@ void judge(const Table& runs, tutorial::Report& report) {
 // :number: 71 = table "P1 on columns, epsilon = 1" 0.01562 "solver=proximal Galerkin"
 // :number: 13 = table "P1 on columns, epsilon = 0" 0.01562 "solver=interior point"
 //
-// From the contact set of the coarser mesh the active set needs 2 guesses at most, and on
-// this problem no other solver comes near. With CR on the unstructured mesh it needs 4
+// From the contact set of the coarser mesh the active set needs 2 guesses at most, fewer
+// than any other solver here. With CR on the unstructured mesh it needs 4
 // guesses from nothing at every ε (1/h = 32).
 // :number: 4 = table "CR, unstructured" 0 "solver=active set"
 // :figure: solver_shapes
 // :live: solvers
 //
 // (b) The active set answers 0, which is right: 0 is the only admissible function. Proximal
-// Galerkin refuses, because $F = 0$ and $e^ψ = 0$ has no solution. *A solver that needs an
-// inner point detects locking at no cost.* The interior point method above does not refuse,
-// although it is a barrier method, too: it starts from an $s$ that is not $w + F λ$, and
-// its $s$ tends to 0. At ε = 1e-6 $F$ is tiny and not 0. Then all methods agree on an
-// answer that is as wrong as the space: a solver is exactly as robust as its
-// discretisation.
+// Galerkin refuses, because $F = 0$ and $e^ψ = 0$ has no solution. *At ε = 0 this refusal
+// detects locking at no cost.* The interior point method above does not refuse, although it
+// is a barrier method, too: it starts from an $s$ that is not $w + F λ$, and its $s$ tends
+// to 0. At ε = 1e-6 $F$ is tiny and not 0. Then all methods agree on an answer that is as
+// wrong as the space: no solver repairs a discretisation that locks.
 //
 // Uzawa's steps grow like $1/h^2$, to 8091, and the accelerated ones like $1/h$, to 810, at
 // ε = 1e-6 and 0 alike. The products of MPRGP keep growing as ε falls: from 485 at ε = 1 to
@@ -532,9 +532,9 @@ void judge(const Table& runs, tutorial::Report& report) {
 // :number: 485 = table "P1 on columns, epsilon = 1" 0.01562 solver=MPRGP
 // :output: As published
 //
-// As published, $u_h$ has the error of the active set, up to a factor of 1.21, and sinks
-// below 0 by 0.6 % of the ridge. $e^{ψ_h}$ does not, but it is not 0 at the clamped ends,
-// and beside them its error falls like $h$ alone.
+// As published, $u_h$ has the error of the active set, up to a factor of 1.21, and is below
+// 0 by up to 0.6 % of the ridge. $e^{ψ_h}$ is positive, but it is not 0 at the clamped
+// ends, and beside them its error falls like $h$ alone.
 // :number: 1.21 = line "u_h has at most {} times"
 // :output: P1 on columns: seconds
 //
@@ -549,10 +549,16 @@ void judge(const Table& runs, tutorial::Report& report) {
 // 2. The augmented Lagrangian at ε = 0: multiply $r$ by 100. What happens to the outer
 //    steps, and to the linear systems?
 // 3. On paper: prove the bound for $J(u_k) - J(u)$.
-// 4. On paper: why does neither the active set nor Uzawa notice that $F = 0$?
+// 4. On paper: why do the active set and Uzawa's method end without an error for $F = 0$?
 //
 // ## Further reading
 //
+// - M. R. Hestenes, *Multiplier and gradient methods*, J. Optim. Theory Appl. 4 (1969),
+//   doi:10.1007/BF00927673
+// - M. J. D. Powell, *A method for nonlinear constraints in minimization problems*, in R.
+//   Fletcher (editor), Optimization, Academic Press, 1969
+// - R. T. Rockafellar, *Augmented Lagrangians and applications of the proximal point
+//   algorithm in convex programming*, Math. Oper. Res. 1 (1976), doi:10.1287/moor.1.2.97
 // - M. Hintermüller, K. Ito, K. Kunisch, *The primal-dual active set strategy as a
 //   semismooth Newton method*, SIAM J. Optim. 13 (2002), doi:10.1137/S1052623401383558
 // - B. Keith, T. M. Surowiec, *Proximal Galerkin: a structure-preserving finite element

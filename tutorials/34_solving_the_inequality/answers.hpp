@@ -48,6 +48,6 @@ const std::vector<tutorial::Exercise> exercises{
 // $D_h(u, u_0)$. And $J(u_k)$ does not grow, because $v = u_{k-1}$ is a candidate of step
 // $k$. So the sum is at least $(α_1 + ... + α_k)(J(u_k) - J(u))$.
 //
-// **4.** $F = 0$: a force moves nothing. The active set sees $s = w = 0$ at every point, no
-// wrong sign, and ends after one guess. Uzawa's gradient is 0. Each is right about the
-// discrete problem: its only admissible function is 0.
+// **4.** If $F = 0$, a force moves nothing, and $s = w = 0$ at every point. So the active
+// set method meets no wrong sign, and ends after one guess. The gradient in Uzawa's method
+// is 0. Both answers are right for the discrete problem: its only admissible function is 0.

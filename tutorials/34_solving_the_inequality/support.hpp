@@ -36,7 +36,7 @@ struct Found {
   std::vector<Eigen::VectorXd> shapes = {};  ///< s in each step, where a picture shows them
 };
 
-/// Condenses a problem on Gamma_C. A flexibility that is round-off counts as 0, and so does
+/// Condenses a problem on Gamma_C. A flexibility that is round-off is set to 0, and so is
 /// the value that no force moves.
 inline OnContact condense(const VariationalInequality& problem) {
   VariationalInequality linear = problem;
@@ -53,13 +53,13 @@ inline OnContact condense(const VariationalInequality& problem) {
   return {std::move(flexibility.f), std::move(flexibility.w)};
 }
 
-/// The largest |w_i|, by which changes of s are divided; 1 where w is 0.
+/// Returns the largest |w_i|, by which changes of s are divided, or 1 if w is 0.
 inline double size_of(const OnContact& p) {
   const double size = p.w.lpNorm<Eigen::Infinity>();
   return size > 0 ? size : 1;
 }
 
-/// The places of the marks.
+/// Returns the indices of the marks that are true.
 inline std::vector<int> members(const std::vector<bool>& marks) {
   std::vector<int> set;
   for (std::size_t i = 0; i < marks.size(); ++i)
@@ -85,15 +85,16 @@ inline void count_step(Found& found, const std::string& solver, int most) {
                        most);
 }
 
-/// Whether a Newton step for psi is small, relative to 1 + |moved|, the change of psi so
-/// far in the proximal step. Convergence is quadratic, so that the next step would have
-/// some 14 digits.
+/// Returns whether a Newton step for psi is small, relative to 1 + |moved|, the change of
+/// psi so far in the proximal step. Convergence is quadratic, so that the next step would
+/// have some 14 digits.
 inline bool has_converged(const Eigen::VectorXd& step, const Eigen::VectorXd& moved) {
   return (step.array().abs() <= 1e-7 * (1 + moved.array().abs())).all();
 }
 
-/// The share of a Newton step after which no psi has grown by more than 8: exp must not
-/// overflow.
+/// Returns the largest share of a Newton step, at most 1, by which no psi grows by more
+/// than
+/// 8. So exp does not overflow.
 inline double without_overflow(const Eigen::VectorXd& step) {
   return std::min(1.0, 8 / std::max(step.maxCoeff(), 1e-300));
 }
@@ -132,8 +133,8 @@ struct Exponential {
   Eigen::MatrixXd products;
 };
 
-/// The C x C integrals of the hats of u, which are 0 at the ends, times those of the
-/// multiplier. The matrix is symmetric.
+/// Returns the C x C integrals of the hats of u, which are 0 at the ends, times those of
+/// the multiplier. The matrix is symmetric.
 inline Eigen::MatrixXd mass_matrix(Eigen::Index count) {
   const double h = 1.0 / static_cast<double>(count + 1);
   Eigen::MatrixXd mass = Eigen::VectorXd::Constant(count, 2 * h / 3).asDiagonal();
@@ -144,7 +145,8 @@ inline Eigen::MatrixXd mass_matrix(Eigen::Index count) {
   return mass;
 }
 
-/// The longest step along (ds, dl) that keeps s and lambda at 0 or above, at most 1.
+/// Returns the longest step along (ds, dl) that keeps s and lambda at 0 or above, at most
+/// 1.
 inline double longest_step(const Eigen::VectorXd& s, const Eigen::VectorXd& ds,
                            const Eigen::VectorXd& lambda, const Eigen::VectorXd& dl) {
   double step = 1;
@@ -155,7 +157,8 @@ inline double longest_step(const Eigen::VectorXd& s, const Eigen::VectorXd& ds,
   return step;
 }
 
-/// The active set of a coarser mesh on one with `count` points: that of the nearest point.
+/// Transfers the active set of a coarser mesh to one with `count` points: each point takes
+/// over the status of the nearest one.
 inline std::vector<bool> transfer(const std::vector<bool>& coarse, int count) {
   std::vector<bool> fine(count, false);
   const auto points = static_cast<int>(coarse.size());
@@ -164,7 +167,7 @@ inline std::vector<bool> transfer(const std::vector<bool>& coarse, int count) {
   return fine;
 }
 
-/// A solution of the library, as one on Gamma_C.
+/// Returns the part of a solution of the library that belongs to Gamma_C.
 inline Found on_contact(const VariationalInequality& problem, const Solution& solution) {
   Found found{bounded_values(problem.bounds, solution.u), solution.lambda};
   found.steps = solution.counters.contact_iterations;
@@ -210,7 +213,8 @@ struct Study {
   /// Runs a solver and compares its s with that of `exact`. The answer is "agrees", "0"
   /// where both are 0 to 1e-12, "differs", or "refuses". `error` is relative to the
   /// largest |s|. On a locked mesh s is a billionth of `unlocked`, the size without
-  /// locking, whose round-off w and F have: s = w + F lambda has lost as many digits.
+  /// locking. The round-off of w and F is that of `unlocked`, so s = w + F lambda has nine
+  /// digits less.
   void add(const Run& run, const Found& exact, double unlocked,
            const std::function<Found()>& solve) {
     const Stopwatch watch;
@@ -300,8 +304,8 @@ inline std::vector<TableEntry> answer_row(const ExactSolution& exact, const Foun
           published.steps};
 }
 
-/// `rigid` has the runs of P1 on columns at epsilon = 0. The border of the active set moves
-/// by one point per guess, from 1/2 to the end c of contact.
+/// Claims that the border of the active set moves by one point per guess, from 1/2 to the
+/// end c of contact. `rigid` has the runs of P1 on columns at epsilon = 0.
 inline void judge_border(const Table& rigid, Report& report) {
   const ExactSolution exact(paper_sine_load(), 0, true, 14);
   const double c = exact.contact_zones().front().first;
