@@ -23,13 +23,13 @@
 //
 // ## The method
 //
-// $V_h$ now holds all functions that are affine on each triangle. They need not fit
-// together anywhere. On an edge $E$ between two triangles let $[v]$ be the jump, the value
-// on one side less that on the other, $\{w\}$ the mean of both sides, and $n$ the normal
-// from the first side to the second. Multiply the equation $-\operatorname{div} σ = f$ by
-// $v$ and integrate by parts on each triangle. The stress σ has the components $∂_x u$ and
-// $∂_y u$ in the body, $∂_x u$ and $ε^{-2} ∂_y u$ in the layer. Its normal component $σ·n$
-// is the same on both sides of an edge, so that
+// $V_h$ now holds all functions that are affine on each triangle. They need not be
+// continuous anywhere. On an edge $E$ between two triangles let $[v]$ be the jump, the
+// value on one side less that on the other, $\{w\}$ the mean of both sides, and $n$ the
+// normal from the first side to the second. Multiply the equation
+// $-\operatorname{div} σ = f$ by $v$ and integrate by parts on each triangle. The stress σ
+// has the components $∂_x u$ and $∂_y u$ in the body, $∂_x u$ and $ε^{-2} ∂_y u$ in the
+// layer. Its normal component $σ·n$ is the same on both sides of an edge, so that
 //
 // $$ ∑_T ∫_T σ·∇v - ∑_E ∫_E (σ·n) [v] = ∫ f v. $$
 //
@@ -72,9 +72,8 @@
 //   D u = ∂_y u - \frac{1}{|T|} ∑_k c_k m_k. $$
 //
 // By Green's formula $∂_y u$ is $1/|T|$ times the sum of $|E_k| n_k$ times the mean of $u$
-// over edge $k$. So $D u$ is the slope of the affine function whose means over the edges
-// are those of
-// *both* sides, averaged. The square that is subtracted is at most
+// over edge $k$. So $D u$ is the slope of the affine function whose mean over each edge is
+// the average of the means of *both* sides. The square that is subtracted is at most
 // $3 ∑_k c_k^2 m_k^2 / |T|$ (Cauchy and Schwarz). So choose the penalty as γ times this
 // bound:
 //
@@ -130,16 +129,16 @@
 // $$ \hat u = \text{ the solution of Crouzeix-Raviart, for every } γ > 1, $$
 //
 // and $m$ is 0 where there is no load, as in the layer. Elsewhere it falls like $1/γ$. The
-// additional unknowns improve nothing: Crouzeix-Raviart is left if the mean is set to zero,
-// and also if it is penalised. Hansbo and Larson split the penalty of the jump into that of
-// its mean and a second one, for elasticity, where Crouzeix-Raviart needs the other part of
-// the jump ([chapter 26](../26_elasticity/26_elasticity.cpp)). They found that
+// additional unknowns improve nothing. Crouzeix-Raviart is the result if the mean is set to
+// zero, and also if it is penalised. Hansbo and Larson split the penalty of the jump into
+// that of its mean and a second one, for elasticity, where Crouzeix-Raviart needs the other
+// part of the jump ([chapter 26](../26_elasticity/26_elasticity.cpp)). They found that
 // Crouzeix-Raviart is the limit for a large penalty of the mean. Here, with constant
 // stiffness on each side of Σ, the averages do not even depend on γ.
 //
 // ## Two methods with other names
 //
-// Two popular methods also have one number $u_E$ per edge. Are they different methods?
+// Two more methods have one number $u_E$ per edge. Are they different methods?
 //
 // **The hybrid high-order method of degree 0** (Di Pietro, Ern and Lemaire) has also a
 // number $u_T$ per triangle. From these it reconstructs an affine function $r$ on $T$: its
@@ -149,7 +148,7 @@
 // midpoints. Then $∇r = ∇c$, and $r$ differs from $c$ by a constant, $δ_k = \bar c - u_T$,
 // the same for all three edges. So $u_T$ occurs in the form only in $(\bar c - u_T)^2$, and
 // in the load with the factor $∫_T f$. To eliminate it moves the load to the mean $\bar c$.
-// What is left is *Crouzeix-Raviart with the load $∑_T \bar v_T ∫_T f$*.
+// The result is *Crouzeix-Raviart with the load $∑_T \bar v_T ∫_T f$*.
 //
 // **The hybridised Raviart-Thomas method** of lowest order (Arnold and Brezzi; Marini) has
 // the stress as an unknown: on each triangle $σ = s + t\, (x - x_T)$, $x_T$ the centroid.
@@ -419,8 +418,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :output: mean of the jump less
 //
-// Twice as many unknowns are not more accurate than Crouzeix-Raviart. The two hybrid
-// methods have the same solution as well:
+// With 2 times as many unknowns the method is not more accurate than Crouzeix-Raviart. The
+// two hybrid methods have the same solution as well:
 //
 // :output: three methods
 //

@@ -12,14 +12,14 @@
 
 namespace antilock::tutorial {
 
-/// N_T of the page.
+/// Returns N_T of the chapter, the number of triangles in the layer.
 inline int layer_triangles(const TriangleMesh& mesh) {
   return static_cast<int>(
       std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
 }
 
-/// N_E of the page: the edges between two triangles of the layer that are not vertical.
-/// Vertical means: to round-off.
+/// Returns N_E of the chapter, the number of edges between two triangles of the layer that
+/// are not vertical up to round-off.
 inline int stiff_edges(const TriangleMesh& mesh) {
   int count = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {
@@ -32,7 +32,8 @@ inline int stiff_edges(const TriangleMesh& mesh) {
   return count;
 }
 
-/// T: the integral of the load over each triangle, by the rule of load_vector.
+/// Returns T values: the integral of the load over each triangle, by the rule of
+/// load_vector.
 inline Eigen::VectorXd load_on_triangles(const Scene& scene, const Space& edges) {
   const Space triangles(edges, discontinuous_p1());
   const Eigen::VectorXd load = load_of(scene, triangles);
@@ -42,8 +43,8 @@ inline Eigen::VectorXd load_on_triangles(const Scene& scene, const Space& edges)
   return total;
 }
 
-/// E: the average of u over both sides at the midpoint of an edge. On Sigma it is the value
-/// on the side of the layer, and on a clamped edge 0.
+/// Returns E values: the average of u over both sides at the midpoint of an edge. On Sigma
+/// it is the value on the side of the layer, and on a clamped edge 0.
 inline Eigen::VectorXd averages_on_edges(const Space& triangles, const Eigen::VectorXd& u) {
   const TriangleMesh& mesh = triangles.mesh();
   Eigen::VectorXd average = Eigen::VectorXd::Zero(mesh.edge_count());
@@ -65,7 +66,7 @@ struct EdgeSolution {
   Eigen::MatrixX2d stress;
 };
 
-/// Crouzeix-Raviart with the load sum_T mean(v) int_T f.
+/// Assembles (23) with Crouzeix-Raviart and the load sum_T mean(v) int_T f.
 inline VariationalInequality crouzeix_raviart_problem(const Scene& scene,
                                                       const Space& edges) {
   VariationalInequality problem = assemble(scene, edges);
@@ -76,8 +77,8 @@ inline VariationalInequality crouzeix_raviart_problem(const Scene& scene,
   return problem;
 }
 
-/// The stress of values on the edges, p in the layer (one number per triangle of the
-/// layer).
+/// Returns the stress of values on the edges, p in the layer (one number per triangle of
+/// the layer).
 inline EdgeSolution edge_solution(const Space& edges, const Eigen::VectorXd& u,
                                   const Eigen::VectorXd& p) {
   const TriangleMesh& mesh = edges.mesh();
@@ -91,10 +92,10 @@ inline EdgeSolution edge_solution(const Space& edges, const Eigen::VectorXd& u,
   return solution;
 }
 
-/// One component of the hybrid high-order form of degree 0 on a region, in factors: the
-/// gradient of the reconstruction r with the weight |T|, and n_k delta_k with the
-/// weight |E_k| / h_k = 1, delta_k = u_k - r(x_k). Unknowns: E edges, then T triangles.
-/// First all gradients, then all penalties.
+/// Returns one component of the hybrid high-order form of degree 0 on a region, in factors:
+/// the gradient of the reconstruction r with the weight |T|, and n_k delta_k with the
+/// weight |E_k| / h_k = 1, delta_k = u_k - r(x_k). The unknowns are those of E edges, then
+/// those of T triangles. The rows are all gradients, then all penalties.
 inline FactoredForm hybrid_rows(const Space& edges, Region region, int axis) {
   const TriangleMesh& mesh = edges.mesh();
   FactoredFormBuilder rows;
@@ -125,7 +126,8 @@ inline FactoredForm hybrid_rows(const Space& edges, Region region, int axis) {
   return rows.form(edges.size() + mesh.triangle_count());
 }
 
-/// (23) by the hybrid high-order method of degree 0. Unknowns: E edges, then T triangles.
+/// Assembles (23) by the hybrid high-order method of degree 0. The unknowns are those of E
+/// edges, then those of T triangles.
 inline VariationalInequality hybrid_problem(const Scene& scene, const Space& edges) {
   const VariationalInequality base = assemble(scene, edges);
   const int size = edges.size() + edges.mesh().triangle_count();
@@ -149,14 +151,15 @@ inline VariationalInequality hybrid_problem(const Scene& scene, const Space& edg
   return problem;
 }
 
-/// (23) by the hybridised Raviart-Thomas method of lowest order, with a given contact set:
-/// edges that are clamped or `held` have the value 0. Unknowns: 3 T fluxes through edges, T
-/// values on triangles, E on edges. Returns also the residual fluxes on the held edges,
-/// which are the contact forces.
+/// The solution of (23) by the hybridised Raviart-Thomas method of lowest order, and the
+/// residual fluxes on the edges of the contact set, which are the contact forces.
 struct RaviartThomas {
   EdgeSolution solution;
   Eigen::VectorXd force;  ///< E
 };
+/// Solves (23) by this method with a given contact set: edges that are clamped or `held`
+/// have the value 0. The unknowns are 3 T fluxes through edges, T values on triangles, and
+/// E on edges.
 inline RaviartThomas raviart_thomas(const Scene& scene, const Space& edges,
                                     const std::vector<int>& held) {
   const TriangleMesh& mesh = edges.mesh();
@@ -217,10 +220,10 @@ inline RaviartThomas raviart_thomas(const Scene& scene, const Space& edges,
   return found;
 }
 
-/// Crouzeix-Raviart with the mean load, the hybrid high-order method and the hybridised
-/// Raviart-Thomas method on one mesh: relative differences of the values on the edges and
-/// of the mean stresses, and the smallest of the gaps and contact forces of Raviart-Thomas
-/// on Gamma_C (relative), which must not be negative.
+/// Compares Crouzeix-Raviart with the mean load, the hybrid high-order method and the
+/// hybridised Raviart-Thomas method on one mesh. Returns relative differences of the values
+/// on the edges and of the mean stresses, and the smallest of the gaps and contact forces
+/// of Raviart-Thomas on Gamma_C (relative), which must not be negative.
 inline Table compare_hybrid_methods(const TriangleMesh& mesh) {
   const Space edges(mesh, crouzeix_raviart());
   Table table({"method", "epsilon", "displacement", "stress", "sign"});

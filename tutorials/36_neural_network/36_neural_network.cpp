@@ -36,7 +36,7 @@
 // call such a network an *extreme learning machine*.) The obstacle is left out, so that the
 // problem is linear.
 //
-// **Which functions cost nothing.** On the layer $∂_y u_N = 0$ means
+// **The functions that cost nothing.** On the layer $∂_y u_N = 0$ means
 //
 // $$ ∑_j a_j w_j^- \cosh^{-2}(w_j x + w_j^- y + b_j) = 0. $$
 //
@@ -56,8 +56,8 @@
 // $$ u_N = ∑_i \frac{(f, ψ_i)}{1 + (ε^{-2} - 1) s_i^2} ψ_i. $$
 //
 // This is chapter 16's share $1/(1 + x)$, mode by mode: a mode is lost where ε is below its
-// $s_i$. More features have sums with smaller slopes $s_i$, and the wall moves to smaller
-// ε. It is still there, because no $s_i$ is 0.
+// $s_i$. More features have sums with smaller slopes $s_i$, so that locking begins at a
+// smaller ε. It still begins, because no $s_i$ is 0.
 //
 // **With training.** The *deep Ritz method* (E and Yu) lowers the energy $J(u_N)$ by means
 // of all weights, the inner ones included. Columns are within reach then: nothing forbids
@@ -82,7 +82,7 @@ struct Modes {
   VectorXd ridge;          // the height of the wave $\sin 2πx$ of $ψ_i$ on $Γ_C$
 };
 
-// `depth`: that of the layer, as the features see it (1, but for exercise 1).
+// `depth` is that of the layer in the coordinates of the features: 1, except in exercises.
 Modes ritz(const Network& network, int points, double depth = 1, double tolerance = 1e-9) {
   // ### Forms
   // One row of $A$ per Gauss point and derivative, times the root of the weight: then
@@ -144,7 +144,7 @@ double energy_without_ridge(double epsilon) {
   return body / -without_obstacle(epsilon).energy();
 }
 
-// Random weights between -6 and 6. With `columns` every second feature is one.
+// Draws random weights between -6 and 6. With `columns` every second feature is a column.
 Network draw(int features, bool columns, int seed) {
   Network network = tutorial::random_network(features, 6, 0, seed);
   for (int j = 0; columns && j < features; j += 2) network(j, tutorial::column_layer) = 0;
@@ -157,7 +157,7 @@ Parts parts(int n, double depth = 1) {
   return {body, layer};
 }
 
-// $J(u_N)$, and its derivatives by all weights. `stiffness` is $ε^{-2}$.
+// Returns $J(u_N)$ and writes its derivatives by all weights. `stiffness` is $ε^{-2}$.
 double energy(const Network& network, const Parts& parts, double stiffness,
               Network& gradient) {
   gradient.setZero(network.rows(), 5);
@@ -207,9 +207,9 @@ const std::vector<std::string> training_columns{
     "across",       // the median of $|w_j^-|$
     "quadrature"};  // the change by twice the points
 
-// Trains one network; a row per number of steps. The weights start between -1 and 1, the
-// outer ones near 0. With `true_depth` the layer has the depth ε, and no derivative is
-// stiff.
+// Trains one network, and returns a row per number of steps. The weights start between -1
+// and 1, the outer ones near 0. With `true_depth` the layer has the depth ε, and no
+// derivative is stiff.
 Table train(double epsilon, int seed, const std::vector<int>& steps, bool true_depth) {
   const double depth = true_depth ? epsilon : 1;
   const double stiffness = true_depth ? 1 : std::pow(epsilon, -2);
@@ -288,8 +288,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 void judge_random(const Table& random, tutorial::Report& report) {
-  // A millionth: errors of quadrature. Ritz: u_N has the least J of its space, which u has
-  // of V.
+  // u_N has the least J of its space and u that of V, so that |J(u_N)| <= |J(u)|. A
+  // millionth is left for errors of quadrature.
   report.claim(random.max("energy") < 1 + 1e-6,
                "no network has more than the energy (proved)");
   const Table any = random.filter("weights", "any weights");
@@ -304,7 +304,7 @@ void judge_random(const Table& random, tutorial::Report& report) {
   report.claim(middle(100, 1e-4) > 0.85, "100 features: more than 0.85 at 1e-4 (observed)");
   const Table half = random.filter("weights", "half of the features are columns");
   const Table columns = half.filter("features", 50);
-  // A rigid layer leaves 0.97 of the energy: that much alone does not show a ridge.
+  // A rigid layer leaves 0.97 of the energy, so the energy alone does not show a ridge.
   report.claim(columns.min("energy") > 0.9 && columns.min("ridge") > 0.8 &&
                    columns.max("ridge") < 1.2,
                "half of 50 features are columns: each draw has more than 0.9 of the energy "
@@ -361,8 +361,8 @@ void judge_numerics(tutorial::Report& report) {
 // :output: the energy, by epsilon
 //
 // (a) None, and 25. With any weights 25 features have less than half of the energy at ε =
-// 1e-2, and 50 features at ε = 1e-4. 100 features have 0.93 of it there: the wall has
-// moved, and it is still there. With half of 50 features columns, 25 functions of $x$ carry
+// 1e-2, and 50 features at ε = 1e-4. 100 features have 0.93 of it there, and lock at a
+// smaller ε. With half of 50 features columns, 25 functions of $x$ carry
 // the ridge at every measured ε, and 0.98 of the energy is there at 1e-4.
 // :number: 0.93 = table "the energy" 0.0001 "network=100, any weights"
 // :number: 0.98 = table "the energy" 0.0001 "network=50, half of the features are columns"
@@ -370,11 +370,11 @@ void judge_numerics(tutorial::Report& report) {
 // :output: 50 features
 //
 // **Energy and ridge.** Ritz's method makes the energy as large as the space allows, and it
-// falls with ε. The height of the ridge does neither. Where the body is approximated badly
-// as well, the ridge may be higher than the exact one. It also differs from draw to draw:
-// at ε = 1e-4 its median is 0.24, and the medians of five draws each lie between 0.09 and
-// 0.78. So a small energy shows that a network locks. A large one does not show that it
-// does not, because a layer that cannot move leaves 0.97 of it. Then the ridge decides:
+// falls with ε. Neither holds for the height of the ridge. Where the body is approximated
+// badly as well, the ridge may be higher than the exact one. It also differs from draw to
+// draw: at ε = 1e-4 its median is 0.24, and the medians of five draws each lie between 0.09
+// and 0.78. So a small energy shows that a network locks. A large one does not prove the
+// contrary, because a layer that cannot move leaves 0.97 of it. Then the ridge decides:
 // with columns each draw keeps 0.98 to 1.07 of it.
 // :number: 0.24 = table "50 features" median "weights=any weights" epsilon=0.0001
 //
@@ -383,7 +383,8 @@ void judge_numerics(tutorial::Report& report) {
 // :figure: trained_network
 //
 // (b) No. At ε = 0.1 a thousand steps give 99 % of the energy, at ε = 1e-4 less than a
-// third of it, less than the 97 % of a layer that cannot move: the body is lost as well.
+// third of it. This is less than the 97 % of a layer that cannot move, so the body is
+// approximated badly as well.
 // :number: 97 = 100 * line "less energy than the {} that a rigid layer leaves"
 //
 // :output: training of 50 features

@@ -2,9 +2,9 @@
 // The answers to the exercises of 36_neural_network, whose page includes this one: to be
 // read after predicting.
 
-/// Returns the shares of ridge and energy that 15 draws of 50 features have where the
-/// features see the layer with its true depth. The problem is then that of the true layer,
-/// and no derivative is stiff.
+/// Returns the shares of ridge and energy that 15 draws of 50 features have if the layer
+/// has its true depth in the coordinates of the features. The problem is then that of the
+/// true layer, and no derivative is stiff.
 Table in_true_coordinate(double epsilon) {
   Table rows({"ridge", "energy"});
   for (int seed = 1; seed <= 15; ++seed) {
@@ -16,7 +16,7 @@ Table in_true_coordinate(double epsilon) {
 }
 
 /// Claims that each row has nearly all of the energy, and the ridge. A rigid layer leaves
-/// 0.97 of the energy: that much alone does not show a ridge.
+/// 0.97 of the energy, so the energy alone does not show a ridge.
 void claim_no_locking(const Table& rows, double least_energy, double epsilon,
                       tutorial::Report& report) {
   report.claim(rows.min("energy") > least_energy && rows.max("energy") < 1 + 1e-6,

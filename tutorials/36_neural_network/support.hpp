@@ -37,8 +37,7 @@ enum NetworkColumn { column_x, column_body, column_layer, column_shift, column_o
 
 /// The points of Gauss's rule with n points in each direction, on the body (0,1) x (0,1) or
 /// on the layer (0,1) x (-1,0). Every array has n^2 entries. With another depth of the
-/// layer y runs from
-/// -depth to 0, and the weights remain those of depth 1.
+/// layer y runs from -depth to 0, and the weights remain those of depth 1.
 struct GaussPoints {
   GaussPoints(int n, bool on_layer, double depth = 1)
       : layer(on_layer), x(n * n), y(n * n), weight(n * n) {  // filled below
@@ -104,7 +103,7 @@ inline Eigen::VectorXd ridge_heights(const Network& network, double depth = 1) {
 }
 
 /// Random numbers between -1 and 1, the same on every machine. The distributions of
-/// <random> differ between standard libraries, the generators do not.
+/// <random> differ between standard libraries, and the generators do not.
 class RandomWeights {
  public:
   explicit RandomWeights(int seed) : generator_(seed) {}
@@ -183,8 +182,8 @@ inline void show_draws(const std::filesystem::path& to, const Table& draws) {
 }
 
 /// Prints the training from seed to seed, and writes training.csv and trained.csv, the
-/// medians over the seeds for the picture. A median below 0 (J is above that of u = 0) has
-/// no place in the picture.
+/// medians over the seeds for the picture. A median below 0 (J is above that of u = 0) is
+/// left out of the picture.
 inline void show_training(const std::filesystem::path& to, const Table& runs) {
   Table ranges({"epsilon", "steps", "energy", "ridge", "across"});
   Table medians({"epsilon", "steps", "energy"});
@@ -203,7 +202,7 @@ inline void show_training(const std::filesystem::path& to, const Table& runs) {
   medians.write(to / "trained.csv");
 }
 
-/// A function to minimise: returns its value at a point and writes its gradient there.
+/// A function to minimise. It returns its value at a point and writes its gradient there.
 using Objective =
     std::function<double(const Eigen::VectorXd& at, Eigen::VectorXd& gradient)>;
 

@@ -12,15 +12,16 @@
 // **The picture.** Displacement of $Γ_C$ at ε = 1e-3, by P1 on the structured mesh, where
 // P1 does not lock. The contact condition is not imposed on the unknowns but put into the
 // form, in the way of Nitsche. *Only the parameters of the method differ. One choice is
-// right, one penetrates the obstacle, and with one $Γ_C$ does not follow the body.*
+// right. With another one $Γ_C$ penetrates the obstacle, and with the third it does not
+// follow the body.*
 //
 // :figure: nitsche
 //
-// **Predict.** Nitsche's method has a parameter γ, and textbooks choose $γ = γ_0/h$ with a
-// number $γ_0$ that is large enough. (a) With $γ_0 = 1$ in its simplest variant (θ = 0
-// below) the error at $ε = 1$ is that of P1. Is it so at $ε = 10^{-3}$? (b) Newton's method
-// converges in some 14 steps to a function that satisfies the discrete equation to
-// round-off. Is that a reason to trust it?
+// **Predict.** Nitsche's method has a parameter γ. Chouly and Hild choose $γ = γ_0/h$ with
+// a number $γ_0$ that is large enough (their parameter is $1/γ$). (a) With $γ_0 = 1$ in its
+// simplest variant (θ = 0 below) the error at $ε = 1$ is that of P1. Is it so at
+// $ε = 10^{-3}$? (b) Newton's method converges in some 14 steps to a function that
+// satisfies the discrete equation to round-off. Is that a reason to trust it?
 // :number: 14 = table "Newton steps" 0.001 "method=gamma_0 = 1, theta = 1"
 //
 // ## Contact as one equation
@@ -71,8 +72,8 @@
 //
 // $$ γ > \frac{(1 + θ)^2}{4}\, ε^{-2} \max \frac{|E|}{|T|}. $$
 //
-// Chouly, Hild and Renard prove the same with an unknown constant: their parameter is
-// $1/γ$, and it must be small enough unless θ = -1. In their experiments it is proportional
+// Chouly, Hild and Renard prove the same with an unknown constant: $1/γ$ must be small
+// enough unless θ = -1. In their experiments it is proportional
 // to $h$ and to 1 over Young's modulus, so that it contains the stiffness of the body. Here
 // the constant is known: $|E|/|T| = 2/h$ on the structured mesh.
 // **The parameter must contain the stiffness of the layer,** $γ = γ_0 ε^{-2}/h$, with
@@ -314,7 +315,7 @@ void judge(const Table& all, const Table& depths, tutorial::Report& report) {
 }
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
-  // What is asked for must be above the bound. (Both sides of it contain the same
+  // The parameters of the run must be above the bound. (Both sides of it contain the same
   // $ε^{-2}$.)
   tutorial::check_monotone(
       tutorial::nitsche_problem(tutorial::paper_scene(1), columns_of(options.cells)),
@@ -352,8 +353,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :live: nitsche
 //
-// (b) No. It is the solution of the discrete equation and not of the problem, because below
-// the bound the discrete equation says nothing about the problem. At smaller ε the matrix
+// (b) No. It solves the discrete equation, but it is far from the solution of the problem:
+// the proof that both are close needs a γ above the bound. At smaller ε the matrix
 // is singular up to round-off, and Newton's method does not converge. *The bound can
 // be computed before anything is solved*, as the kernel can.
 //

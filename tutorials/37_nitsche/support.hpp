@@ -74,9 +74,9 @@ inline NitscheProblem nitsche_problem(const Scene& scene, const Space& space) {
   return columns;
 }
 
-/// Nitsche's method for contact: gamma = slope / epsilon^2, so that slope is gamma_0 / h,
-/// or epsilon^2 gamma_0 / h where gamma does not contain the stiffness of the layer;
-/// theta = 1, 0 or -1.
+/// The parameters of Nitsche's method for contact. gamma is slope / epsilon^2, so that
+/// slope is gamma_0 / h, or epsilon^2 gamma_0 / h where gamma does not contain the
+/// stiffness of the layer. theta is 1, 0 or -1.
 struct Nitsche {
   double slope;
   double theta = 1;
@@ -213,9 +213,9 @@ class NitscheSystem {
   Triplets fixed_;  ///< of A1, B and the compliance
 };
 
-/// Newton's method from u = 0 until the statuses of the Gauss points repeat and u changes
-/// by less than 1e-9 of its largest value. `converged` tells whether it did within
-/// `most_steps`.
+/// Runs Newton's method from u = 0 until the statuses of the Gauss points repeat and u
+/// changes by less than 1e-9 of its largest value. `converged` tells whether this happened
+/// within `most_steps`.
 inline NitscheSolution solve_nitsche(const NitscheProblem& columns, const Nitsche& method,
                                      int most_steps = 40) {
   const NitscheSystem system(columns, method);
