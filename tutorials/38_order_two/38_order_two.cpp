@@ -1,6 +1,6 @@
 // # Order two on any mesh
 //
-// Run: 38_order_two                five families of meshes to 1/32, contact to 1/64; ten seconds
+// Run: 38_order_two                five families to 1/32, contact to 1/64; ten seconds
 // Run: 38_order_two --cells 128    each mesh once more
 // Run: 38_order_two --exercise 1
 // Run: 38_order_two --exercise 2
@@ -11,9 +11,9 @@
 // (the worst error over ε), [16](../16_degree/16_degree.cpp) (higher degrees lock later,
 // but lock). The theorems are proved line by line in [order_two](../guides/order_two.md).
 //
-// After this page you can say how much an element must know for its strain to be exact in
-// the mean, count whether a polynomial space knows it, and ask for contact by numbers that
-// cannot be negative.
+// **Afterwards you can** say which moments an element must keep for its strain to be exact
+// in the mean, count whether a polynomial space can keep them, and impose contact by means
+// that are not negative for any admissible function.
 //
 // :figure: order_two_unknowns
 //
@@ -28,33 +28,34 @@
 // take the affine function with the same mean and the same first moment as $u$. Is it at
 // least 0 where $u$ is? If not, which two of its values are, for every $u ≥ 0$?
 //
-// ## How much must an element know?
+// ## Which moments must an element keep?
 //
 // A method locks where its functions without strain are too few
 // ([chapter 07](../07_kernel/07_kernel.cpp)). CR has enough on any mesh for one reason: its
 // gradient is the mean of the gradient. Interpolate a function without strain by its means
-// over edges; then the interpolant has none. Ask the same of degree $k$: the strain of the
-// interpolant $I_h u$ shall be the projection of $∂_y u$ on polynomials of degree $k - 1$,
+// over edges; then the interpolant has none. The same condition for degree $k$ is that the
+// strain of the interpolant $I_h u$ is the projection of $∂_y u$ on polynomials of degree
+// $k - 1$,
 //
 // $$ ∫_T ∂_y(u - I_h u) q = 0   for all q of degree k - 1. $$
 //
-// Integrate by parts. On each edge $u - I_h u$ meets $q$, inside of the triangle $∂_y q$.
-// So the integral is 0 if $I_h u$ keeps the moments of $u$ against polynomials of degree
-// $k - 1$ on each edge and of degree $k - 2$ on the triangle. These are $3k + k(k-1)/2$
-// numbers, and polynomials of degree $k$ have $(k+1)(k+2)/2$ coefficients. The difference
-// is
+// Integrate by parts. Then $u - I_h u$ is multiplied by $q$ on each edge, and by $∂_y q$
+// inside of the triangle. So the integral is 0 if $I_h u$ keeps the moments of $u$ against
+// polynomials of degree $k - 1$ on each edge and of degree $k - 2$ on the triangle. These
+// are $3k + k(k-1)/2$ numbers, and polynomials of degree $k$ have $(k+1)(k+2)/2$
+// coefficients. The difference is
 //
 // $$ 3k + \frac{k(k-1)}{2} - \frac{(k+1)(k+2)}{2} = k - 1. $$
 //
-// For $k = 1$ it is 0: this is CR. *P2 is one function short.* The six edge moments of a
+// For $k = 1$ it is 0: this is CR. *P2 has one function too few.* The six edge moments of a
 // parabola are not free: with $d_j$ the difference of the two on edge $j$,
-// $d_0 + d_1 + d_2 = 0$. At $k = 3$ two functions are missing, and the element of Crouzeix
-// and Falk, which has cubics, locks: four of its functions have no strain at $1/h = 4$, and
-// four at $1/h = 8$ (the first table below).
+// $d_0 + d_1 + d_2 = 0$. At $k = 3$ two functions are missing. The element of Crouzeix and
+// Falk has cubics. Four of its functions have no strain at $1/h = 4$, and four at
+// $1/h = 8$ (the table of functions without strain below): this kernel does not grow here.
 //
 // ## Seven numbers
 //
-// So do not ask for a polynomial. Keep the numbers: on each edge the two means
+// So do not require a polynomial. Keep the numbers: on each edge the two means
 //
 // $$ a^- = \frac{2}{|E|} ∫_E u λ^-,   a^+ = \frac{2}{|E|} ∫_E u λ^+ $$
 //
@@ -69,15 +70,15 @@
 // Pietro and Ern). The library calls it `hybrid_bdm1()`, a scene `"BDM1-hybrid"` or `"M2"`.
 // Three things have to be checked.
 //
-// **Does $G$ see everything?** If $G u = 0$ then the edge terms are 0 for all $q$, after
-// $u_T$ is subtracted. The normal parts of an affine field on the three edges are six free
-// numbers. So $u_E = u_T$ on each edge: $u$ is constant. No term has to be added, while
-// other methods of this kind need a *stabilisation*.
+// **Is $G u = 0$ for constants alone?** If $G u = 0$, then the edge terms are 0 for all
+// $q$, after $u_T$ is subtracted. The normal parts of an affine field on the three edges
+// are six free numbers. So $u_E = u_T$ on each edge: $u$ is constant. No term has to be
+// added, while other methods of this kind need a *stabilisation*.
 //
-// **What has no strain?** Each triangle of the layer brings three equations, one for each
-// coefficient of $(G u)_y$, and owns four numbers: its mean, and half of the six on its
-// edges. One is left. The kernel grows like the triangles, and by the projection every
-// function without strain has its interpolant in it.
+// **How many functions have no strain?** Each triangle of the layer brings three equations,
+// one for each coefficient of $(G u)_y$, and four numbers: its mean, and half of the six on
+// its edges. The difference is one. The kernel grows like the triangles, and by the
+// projection every function without strain has its interpolant in it.
 //
 // **Contact.** $a^- ≥ 0$ and $a^+ ≥ 0$ on the edges of $Γ_C$: bounds on unknowns. Means of
 // $u ≥ 0$ with the weights $λ^± ≥ 0$ are not negative, so $I_h$ maps $K$ into $K_h$. And
@@ -340,31 +341,30 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // :output: functions without strain
 //
 // (a) Like the columns, $2/h$ (Fortin and Soulie; exercise 1). With seven numbers
-// they grow like the triangles. A kernel that grows, and one that contains the
-// interpolants, are two things.
+// they grow like the triangles. A kernel that grows need not contain the interpolants of
+// all functions without strain.
 //
 // (b) No: the affine function with the moments of $u(s) = (1 - 4s)_+$ is negative from
 // $s = 0.7$ on. Its values at one and at two thirds of the edge are the hat means of $u$,
-// so they are at least 0. Its values at the two Gauss points need not be. If one asks for
-// them all the same, the pressure that works on them may be negative on the edge on which
-// contact ends: in the picture down to -14 % of the largest pressure.
+// so they are at least 0. Its values at the two Gauss points need not be. If these values
+// are bounded all the same, the pressure that works on them may be negative on the edge on
+// which contact ends: in the picture down to -14 % of the largest pressure.
 // :number: -14 = line "Gauss points: the lowest pressure is {} % of"
 //
 // In contact $∂_{xx} u$ jumps at ε = 0, and the interpolant of the flux is no longer of
 // order 2. In the layer the order is 2.13 on columns, where it varies with the place in its
 // edge at which contact ends. On rows it is 1.23 and falls from mesh to mesh. There CR has
-// 0.79.
-// Proved are order 1 on columns and 1/2 on any shape-regular mesh (Corollary I). **Open**
-// are the orders that are measured, and whether an element has an order above 1 in contact
-// on every mesh.
+// 0.79. Order 1 on columns and order 1/2 on any shape-regular mesh are proved (Corollary
+// I). **Open:** the orders that are measured are not proved, and it is not known here
+// whether an element has an order above 1 in contact on every mesh.
 // :number: 2.13 = line "BDM1-hybrid on columns in contact, part of the layer (observed): order {}"
 // :number: 1.23 = line "BDM1-hybrid on rows in contact, part of the layer (observed): order {}"
 // :number: 0.79 = line "CR on rows in contact, part of the layer (observed): order {}"
 //
 // :output: unknowns for a relative
 //
-// For a relative error of 10 % on rows CR takes 6611 unknowns, and the seven numbers take
-// 1091. CR reaches 3 % on none of these meshes. The seven numbers reach 0.3 % with 17675.
+// For a relative error of 10 % on rows CR needs 6611 unknowns, and hybrid BDM1 needs 1091.
+// CR reaches 3 % on none of these meshes. Hybrid BDM1 reaches 0.3 % with 17675.
 // :number: 6611 = table "unknowns for a relative" "10 %" element=CR mesh=rows
 // :number: 1091 = table "unknowns for a relative" "10 %" element=BDM1-hybrid mesh=rows
 // :number: 17675 = table "unknowns for a relative" "0.3 %" element=BDM1-hybrid mesh=rows
@@ -388,6 +388,11 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // - D. N. Arnold, F. Brezzi, *Mixed and nonconforming finite element methods*, RAIRO 19
 //   (1985), 7-32,
 //   [doi:10.1051/m2an/1985190100071](https://doi.org/10.1051/m2an/1985190100071).
+// - F. Brezzi, J. Douglas, L. D. Marini, *Two families of mixed finite elements for second
+//   order elliptic problems*, Numer. Math. 47 (1985), 217-235,
+//   [doi:10.1007/BF01389710](https://doi.org/10.1007/BF01389710).
+// - M. Crouzeix, R. S. Falk, *Nonconforming finite elements for the Stokes problem*, Math.
+//   Comp. 52 (1989), 437-456.
 // - D. A. Di Pietro, A. Ern, *A hybrid high-order locking-free method for linear elasticity
 //   on general meshes*, Comput. Methods Appl. Mech. Engrg. 283 (2015), 1-21,
 //   [doi:10.1016/j.cma.2014.09.009](https://doi.org/10.1016/j.cma.2014.09.009).

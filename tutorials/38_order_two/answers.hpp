@@ -5,9 +5,9 @@
 #include "antilock/form/strain_projection.hpp"
 #include "antilock/models/project_strain.hpp"
 
-/// The problem with one linear equation per triangle of the layer, d_0 + d_1 + d_2 = 0, as
-/// rows of B whose compliance is 0. With those of the body it would be the element of
-/// Fortin and Soulie. The kernel on the layer is the same.
+/// Returns the problem with one linear equation per triangle of the layer,
+/// d_0 + d_1 + d_2 = 0, as rows of B whose compliance is 0. With those of the body it would
+/// be the element of Fortin and Soulie. The kernel on the layer is the same.
 VariationalInequality fortin_soulie(VariationalInequality problem, const Space& space) {
   std::vector<Eigen::Triplet<double>> entries;
   int count = 0;
@@ -23,7 +23,7 @@ VariationalInequality fortin_soulie(VariationalInequality problem, const Space& 
   return problem;
 }
 
-/// The load on the means alone.
+/// Replaces the load by that on the means, L(v) = sum_T v_T int_T f.
 void put_load_on_means(VariationalInequality& problem, const Space& space, const Field& f) {
   const Quadrature& rule = triangle_rule(8);
   problem.load.setZero();
@@ -36,7 +36,8 @@ void put_load_on_means(VariationalInequality& problem, const Space& space, const
     }
 }
 
-/// The largest jump of the normal part of G u_h at the ends of the inner edges of the body.
+/// Returns the largest jump of the normal part of G u_h at the ends of the inner edges of
+/// the body.
 double largest_jump(const Space& space, const Eigen::VectorXd& u) {
   const TriangleMesh& mesh = space.mesh();
   Eigen::MatrixX2d jump = Eigen::MatrixX2d::Zero(mesh.edge_count(), 2);

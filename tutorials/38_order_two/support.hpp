@@ -34,7 +34,7 @@ inline int one_per_triangle(const TriangleMesh& mesh) {
   return dimension;
 }
 
-/// Returns how many functions have no strain in the layer, if they are polynomials of the
+/// Returns how many functions have no strain in the layer, if they are polynomials of
 /// degree k on each triangle, agree at the k Gauss points of each edge between two
 /// triangles, and are 0 at those of the sides. These are the elements of Crouzeix and
 /// Raviart (k = 1), Fortin and Soulie (2), Crouzeix and Falk (3). A polynomial without
@@ -95,8 +95,8 @@ inline Table worst_over_epsilon(const Table& all) {
   return worst;
 }
 
-/// Returns the fewest unknowns with which the runs have a relative energy error of 10 %, 3
-/// %, 1 % and 0.3 % at most, per mesh and element. The word is "-" where none has.
+/// Returns the fewest unknowns with which the runs have a relative energy error of at most
+/// 10 %, 3 %, 1 % and 0.3 %, per mesh and element. The entry is "-" where none has.
 inline Table prices(const Table& runs) {
   const std::vector<std::pair<std::string, double>> accuracies{
       {"10 %", 0.1}, {"3 %", 0.03}, {"1 %", 0.01}, {"0.3 %", 0.003}};
@@ -116,9 +116,9 @@ inline Table prices(const Table& runs) {
   return prices;
 }
 
-/// Asks for contact at the two Gauss points of each edge of Gamma_C, in place of the hat
-/// means. The values there of the affine function with the hat means a-, a+ are (2 - 3 s)
-/// a- + (3 s - 1) a+.
+/// Imposes contact at the two Gauss points of each edge of Gamma_C, in place of the hat
+/// means. The value at s of the affine function with the hat means a-, a+ is
+/// (2 - 3 s) a- + (3 s - 1) a+.
 inline VariationalInequality at_gauss_points(VariationalInequality problem,
                                              const Space& space) {
   const Eigen::VectorXd points = gauss_rule(2).first;
