@@ -57,7 +57,7 @@ struct ProximalGalerkinOptions {
 /// A proximal step has a solution if and only if forces can move all bounded values strictly inside
 /// of their bounds at once: if K_h has an inner point. On a mesh that locks completely K_h contains
 /// only one u at compliance 0, and the flexibility of a bound is 0. The method then throws
-/// NotConverged. (active_set returns this u.) It may throw it also for active bounds that depend on
+/// NotConverged. (active_set returns this u.) It may also throw it for active bounds that depend on
 /// each other, as two bounds on one value do: F is singular on them, and s'(psi) is 0 in double
 /// precision, so that no psi is determined.
 ///

@@ -1,6 +1,6 @@
-// The hybrid form of BDM1 (Brezzi, Douglas and Marini 1985; Arnold and Brezzi 1985). It is the
-// hybrid high-order method with affine functions on the edges and constants on the triangles, too,
-// whose gradient needs no stabilisation here (Di Pietro and Ern 2015). Scenes may call it M2, the
+// The hybrid form of BDM1 (Brezzi, Douglas and Marini 1985; Arnold and Brezzi 1985). It is also the
+// hybrid high-order method with affine functions on the edges and constants on the triangles (Di
+// Pietro and Ern 2015). Its gradient needs no stabilisation here. Scenes may call it M2, the
 // member of order 2 of the family whose first member is Crouzeix-Raviart.
 //
 // Edge j, opposite vertex j, runs from vertex j+1 (-) to vertex j+2 (+). The seven unknowns of v
@@ -17,7 +17,7 @@
 // Here v_j is the affine function on E_j with the means a-_j, a+_j.
 //
 // So G v is the L2 projection of grad v for every v in H1. The seven basis functions span P2 and
-// the cubic (l_0 - l_1)(l_1 - l_2)(l_2 - l_0). The load and the pictures use them, the forms use G
+// the cubic (l_0 - l_1)(l_1 - l_2)(l_2 - l_0). The load and the pictures use them. The forms use G
 // alone.
 #include <cmath>
 

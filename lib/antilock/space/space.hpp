@@ -54,7 +54,7 @@ bool have_one_mesh(const Space& a, const Space& b);
 
 /// Returns the values of the unknowns of a function v(x, y) (N): v at the position of each unknown,
 /// or its weighted mean where the unknowns are means (Element::functional). The second function
-/// returns those of the named unknowns alone (as many as `dofs`).
+/// returns those of the unknowns `dofs` alone, in their order.
 Eigen::VectorXd dof_values(const Space& space, const std::function<double(double, double)>& v);
 Eigen::VectorXd dof_values(const Space& space, const std::vector<int>& dofs,
                            const std::function<double(double, double)>& v);

@@ -590,9 +590,9 @@ TEST(LockingLoss, IsAskedOfConformingElementsWithALayerAlone) {
                  {{"sides", kind, [](double, double) { return 1.0; }}}));
 }
 
-// The lower halves of the layer's sides are held at 0, the rest of the sides is free. In the limit
-// a function of K is then 0 at both ends of Sigma. P1 is 0 in the whole layer, and so equal to the
-// values that are held below. Columns that move at an end of Sigma are not in K.
+// The lower halves of the layer's sides are clamped at 0, the rest of the sides is free. In the
+// limit a function of K is then 0 at both ends of Sigma. P1 is 0 in the whole layer, and so equal
+// to the values that are prescribed below. Columns that move at an end of Sigma are not in K.
 TEST(LockingLoss, IsNotFoundWhereTheLayerIsHeldBelowAFreeEndOfSigma) {
   const TriangleMesh mesh = retagged(jittered_mesh(8, 0.2), [](double, double y) {
     return y < -0.5 || y == 1 ? EdgeTag::clamped : natural_group(0);

@@ -1,4 +1,4 @@
-// The symmetric interior penalty form: its sums of squares against the form of the textbook.
+// The symmetric interior penalty form: its sum of squares is compared with the sum over edges.
 #include "antilock/form/interior_penalty.hpp"
 
 #include <Eigen/Core>
@@ -39,8 +39,8 @@ Side side(const Space& space, int triangle, double weight) {
   return {triangle, weight, gradient};
 }
 
-/// The weighted sides of an edge for the form of one region: none where the edge has no part in
-/// it.
+/// Returns the weighted sides of an edge for the form of one region, none if the edge does not
+/// belong to it.
 std::vector<Side> sides(const Space& space, Region region, int e) {
   const TriangleMesh& mesh = space.mesh();
   const int a = mesh.edge_triangles(e, 0), b = mesh.edge_triangles(e, 1);
@@ -54,7 +54,7 @@ std::vector<Side> sides(const Space& space, Region region, int e) {
   return {side(space, body_first ? a : b, 1), side(space, body_first ? b : a, 0)};
 }
 
-/// The form by edges, as the textbook has it.
+/// Returns the form as a sum over edges, as in Arnold, Brezzi, Cockburn and Marini (2002).
 Eigen::MatrixXd textbook_form(const Space& space, Region region, int axis, double gamma,
                               PenalisedJump penalised) {
   const TriangleMesh& mesh = space.mesh();
@@ -129,8 +129,8 @@ TEST(InteriorPenalty, HasOneSlopePerTriangleFirst) {
   EXPECT_LT(slopes.tail(slopes.size() - row).cwiseAbs().maxCoeff(), 1e-11);
 }
 
-// The reason for the limit: above 1 nothing is negative, and with hardly any penalty something
-// is.
+// The reason for the limit of gamma: above 1 no eigenvalue is negative, and with hardly any penalty
+// one is.
 TEST(InteriorPenalty, IsNotPositiveWithoutEnoughPenalty) {
   const Space space(unstructured_mesh(3), discontinuous_p1());
   const auto smallest = [&](double gamma) {

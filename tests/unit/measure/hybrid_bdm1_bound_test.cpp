@@ -217,8 +217,8 @@ TEST(HybridBdm1Bound, TheFluxIsInEquilibrium) {
     }
 }
 
-// Order 2 in energy and 3 in L2, of the largest error over epsilon, on each family. The intervals
-// leave room for the coarsest of three meshes.
+// The largest error over epsilon has order 2 in energy and 3 in L2 on each family. The intervals
+// are wide enough for the coarsest of three meshes.
 TEST(HybridBdm1Bound, HasOrderTwoUniformlyWithoutContact) {
   for (const std::string& family : families) {
     std::vector<double> h, energy, l2;

@@ -150,8 +150,8 @@ std::map<int, double> boundary_values(const Space& space, const Field& u) {
   return at;
 }
 
-// A quadratic has an affine gradient, which is its own projection, and a constant load meets only
-// the means.
+// A quadratic has an affine gradient, which is its own projection, and the work of a constant load
+// depends on the means alone.
 TEST(HybridBdm1, PassesThePatchTestOfQuadratics) {
   const auto u = [](double x, double y) { return 3 * x * x - 2 * x * y + y * y + x - 5; };
   for (const TriangleMesh& mesh : {structured_mesh(4, {0}), unstructured_mesh(4, {0})}) {
@@ -199,8 +199,8 @@ TEST(HybridBdm1, HasAMotionWithoutStrainPerTriangleOfTheLayer) {
 }
 
 // Without a stabilisation |G v|^2 >= beta (|v_T|^2 + |G v|^2), beta = m / (1 + m) = 0.913 with the
-// smallest eigenvalue m = pi^2 + (pi/4)^2 of -laplace on the domain, which is 2 high, held on three
-// sides and free on the fourth.
+// smallest eigenvalue m = pi^2 + (pi/4)^2 of -laplace on the domain, which is 2 high, clamped on
+// three sides and free on the fourth.
 TEST(HybridBdm1, IsCoerciveWithoutStabilisationOnAnyMesh) {
   const double pi = std::numbers::pi, least = pi * pi * (1 + 1.0 / 16);
   for (const std::string& family : families) {

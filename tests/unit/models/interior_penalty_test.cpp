@@ -48,8 +48,8 @@ TEST(InteriorPenaltyProblem, LocksWithTheWholeJumpAndNotWithItsMean) {
   }
 }
 
-// The squares of the slopes see only the average of both sides, the others only the mean of the
-// jump.
+// The squares of the slopes depend only on the average of both sides, and the others only on the
+// mean of the jump.
 TEST(InteriorPenaltyProblem, HasTheAveragesOfCrouzeixRaviartIfOnlyTheMeanIsPenalised) {
   const TriangleMesh mesh = unstructured_mesh(6);
   const Space edges(mesh, crouzeix_raviart()), triangles(mesh, discontinuous_p1());

@@ -1,5 +1,5 @@
-// Proximal Galerkin: to the answer of the active set at every compliance, or a refusal where K_h
-// has no inner point.
+// Proximal Galerkin agrees with the active set at every compliance, or throws where K_h has no
+// inner point.
 #include "antilock/solve/proximal_galerkin.hpp"
 
 #include "support/dense.hpp"
