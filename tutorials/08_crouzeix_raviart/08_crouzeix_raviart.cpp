@@ -74,7 +74,7 @@
 //
 // The element jumps, but only with mean 0 on each edge.
 // [Chapter 35](../35_interior_penalty/35_interior_penalty.cpp) shows that this is the right
-// condition: a method that restricts the whole jump locks.
+// condition: the method of that chapter locks if it restricts the whole jump.
 
 #include "antilock/measure/residual.hpp"
 #include "course/course.hpp"

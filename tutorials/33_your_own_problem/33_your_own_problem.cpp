@@ -47,9 +47,9 @@
 // $d_i = \frac{1}{h} ∫ (u - w) φ_i$. Theorem 4 is about one $a_0$.
 // [Chapter 28](../28_mixed/28_mixed.cpp) proves it for another one, $a_{0h}$, if $K_h$
 // approaches $K$ and four conditions hold: (i) $a_1 + a_{0h}$ is coercive with one
-// constant; (ii) each element of $K_0$ is a limit of functions of $K_h$ that $a_{0h}$ does
-// not see; (iii) weak limits of bounded functions whose $a_{0h}$ tends to 0 lie in $G$;
-// (iv) $a_{0h}$ tends to $a_0$. Here they are:
+// constant; (ii) each element of $K_0$ is a limit of functions $v_h$ of $K_h$ with
+// $a_{0h}(v_h, v_h) = 0$; (iii) weak limits of bounded functions whose $a_{0h}$ tends to 0
+// lie in $G$; (iv) $a_{0h}$ tends to $a_0$. Here they are:
 //
 // - (i) $a_1$ is coercive alone, since both strings are held at their ends;
 // - (ii) let $(u, u)$ with $u ≥ -g$ be given. Interpolate $u$ on the upper string, and let
