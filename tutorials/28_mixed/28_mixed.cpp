@@ -292,6 +292,10 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // :number: 1.38 = table "Theorem 4 for" "sup error" "strain=boxes (nothing kept)" h=0.0312
 // :number: 1.24 = table "Theorem 4 for" "locking ratio" "strain=boxes (nothing kept)" h=0.0312
 //
+// P2 can be averaged in the same way, with the hat functions of the vertices as weights and
+// half of the stiff form kept. Without contact its error in $H^1$ then falls like $h^2$ on
+// Delaunay meshes (observed; exercise 3 of [chapter 38](../38_order_two/38_order_two.cpp)).
+//
 // ## Exercises
 //
 // 1. Boxes of side $h/2$, $h$, $2h$, $4h$: which side is best? Is smaller always better?
