@@ -114,9 +114,7 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
   s.h = mesh_width(file, result.space.mesh());
   s.unknowns = solution.counters.unknowns;
   s.energy = energy(result.problem, solution);
-  const bool nodal = result.space.element().nodal();
-  const Eigen::VectorXd values =
-      nodal ? Eigen::VectorXd(solution.u) : values_at_dofs(result.space, solution.u);
+  const Eigen::VectorXd values = values_at_dofs(result.space, solution.u);
   s.u_max = values.maxCoeff();
   s.u_min = values.minCoeff();
   if (file.scene.contact()) s.zone = contact_zone(normal_contact(result));
