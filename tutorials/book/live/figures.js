@@ -111,6 +111,20 @@ antilock.figures.kernel = (box) => antilock.asked(box, {
   },
 });
 
+// Draws u along the contact boundary: a curve of each kind from a column of the table `points`, in the order given.
+antilock.contactBoundary = (curves) => (place) => {
+  const chart = antilock.chart(place, { title: "Displacement of the contact boundary",
+    x: { range: [0, 1], ticks: [0, 0.25, 0.5, 0.75, 1], name: "x" },
+    y: { range: [-0.02, 0.14], ticks: [0, 0.05, 0.1], name: "u" } });
+  return ({ said, tables: { points } }) => {
+    for (const [name, column] of curves) {
+      const curve = points.map((row) => [row.x, row[column]]);
+      chart.curve(name, curve, { markers: name !== "exact" });
+    }
+    chart.said(said);
+  };
+};
+
 antilock.figures.penalty = (box) => antilock.asked(box, {
   title: "Penalise the whole jump, or its mean", stem: "35_interior_penalty",
   controls: {
@@ -120,18 +134,7 @@ antilock.figures.penalty = (box) => antilock.asked(box, {
     cells: { label: "1/h", values: [4, 8, 16], start: 8 },
   },
   keys: { exact: "exact", p1: "the whole jump penalised", cr: "its mean penalised" },
-  make(place) {
-    const chart = antilock.chart(place, { title: "Displacement of the contact boundary",
-      x: { range: [0, 1], ticks: [0, 0.25, 0.5, 0.75, 1], name: "x" },
-      y: { range: [-0.02, 0.14], ticks: [0, 0.05, 0.1], name: "u" } });
-    return ({ said, tables: { points } }) => {
-      for (const [name, column] of [["exact", "exact"], ["p1", "whole"], ["cr", "mean"]]) {
-        const curve = points.map((row) => [row.x, row[column]]);
-        chart.curve(name, curve, { markers: name !== "exact" });
-      }
-      chart.said(said);
-    };
-  },
+  make: antilock.contactBoundary([["exact", "exact"], ["p1", "whole"], ["cr", "mean"]]),
 });
 
 antilock.figures.nitsche = (box) => antilock.asked(box, {
@@ -144,18 +147,7 @@ antilock.figures.nitsche = (box) => antilock.asked(box, {
     cells: { label: "1/h", values: [8, 16, 32], start: 16 },
   },
   keys: { exact: "exact", p1: "Nitsche", cr: "active set" },
-  make(place) {
-    const chart = antilock.chart(place, { title: "Displacement of the contact boundary",
-      x: { range: [0, 1], ticks: [0, 0.25, 0.5, 0.75, 1], name: "x" },
-      y: { range: [-0.02, 0.14], ticks: [0, 0.05, 0.1], name: "u" } });
-    return ({ said, tables: { points } }) => {
-      for (const [name, column] of [["exact", "exact"], ["cr", "strong"], ["p1", "nitsche"]]) {
-        const curve = points.map((row) => [row.x, row[column]]);
-        chart.curve(name, curve, { markers: name !== "exact" });
-      }
-      chart.said(said);
-    };
-  },
+  make: antilock.contactBoundary([["exact", "exact"], ["cr", "strong"], ["p1", "nitsche"]]),
 });
 
 antilock.figures.beam = (box) => antilock.asked(box, {
