@@ -34,12 +34,6 @@ int local_vertex(const TriangleMesh& mesh, int t, int vertex) {
   return corner;
 }
 
-int local_edge(const TriangleMesh& mesh, int t, int edge) {
-  int i = 0;
-  while (mesh.triangle_edges(t, i) != edge) ++i;
-  return i;
-}
-
 /// w_T of the header.
 double side_weight(const TriangleMesh& mesh, int t, int edge) {
   const EdgeTag tag = mesh.edge_tag[edge];

@@ -31,11 +31,9 @@ std::vector<Labelled> labelled_edges(const TriangleMesh& mesh) {
   for (int edge = 0; edge < mesh.edge_count(); ++edge) {
     if (mesh.edge_tag[edge] == EdgeTag::interior) continue;
     const int triangle = mesh.edge_triangles(edge, 0);
-    for (int i = 0; i < 3; ++i)  // edge i runs from vertex i+1 to vertex i+2
-      if (mesh.triangle_edges(triangle, i) == edge)
-        labelled.push_back({mesh.triangles(triangle, (i + 1) % 3),
-                            mesh.triangles(triangle, (i + 2) % 3),
-                            physical_number(mesh.edge_tag[edge])});
+    const int i = local_edge(mesh, triangle, edge);  // it runs from vertex i+1 to vertex i+2
+    labelled.push_back({mesh.triangles(triangle, (i + 1) % 3), mesh.triangles(triangle, (i + 2) % 3),
+                        physical_number(mesh.edge_tag[edge])});
   }
   return labelled;
 }

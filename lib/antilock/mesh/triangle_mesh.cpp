@@ -267,6 +267,14 @@ std::string TriangleMesh::location_text(int vertex) const {
   return fmt::format("({:.6g}, {:.6g})", vertices(vertex, 0), vertices(vertex, 1));
 }
 
+int local_edge(const TriangleMesh& mesh, int triangle, int edge) {
+  for (int i = 0; i < 3; ++i)
+    if (mesh.triangle_edges(triangle, i) == edge) return i;
+  throw Error(fmt::format("triangle {} has the edges {}, {} and {}; {} is none of them", triangle,
+                          mesh.triangle_edges(triangle, 0), mesh.triangle_edges(triangle, 1),
+                          mesh.triangle_edges(triangle, 2), edge));
+}
+
 double body_size(const TriangleMesh& mesh) {
   const auto in_body = [&](int t) { return mesh.region[t] == Region::body; };
   bool any = false;

@@ -108,6 +108,10 @@ struct TaggedEdge {
   EdgeTag tag;
 };
 
+/// Returns the number i = 0, 1, 2 of an edge in a triangle: it is opposite local vertex i. Throws
+/// Error unless it is an edge of the triangle.
+int local_edge(const TriangleMesh& mesh, int triangle, int edge);
+
 /// Returns the longer side of the box around the triangles of the body, in the unit of the
 /// coordinates of the mesh. A mesh has the unit of its file. Therefore tolerances of lengths are
 /// fractions of this size. For a mesh without a body it is the longer side of the whole box.

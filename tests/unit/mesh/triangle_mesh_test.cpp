@@ -55,6 +55,17 @@ TEST(TriangleMesh, TurnsASurfaceThatIsClockwiseAsAWhole) {
   EXPECT_EQ(count(both, EdgeTag::sigma), 1);  // found without being tagged
 }
 
+TEST(TriangleMesh, FindsAnEdgeByItsNumber) {
+  const TriangleMesh mesh = Input{}.make();
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(local_edge(mesh, t, mesh.triangle_edges(t, i)), i);
+  // two triangles with one edge in common: of the five edges each has three
+  int refused = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (!test::refusal([&] { local_edge(mesh, 0, e); }).empty()) ++refused;
+  EXPECT_EQ(refused, 2);
+}
+
 TEST(TriangleMesh, RefusesWhatIsNoMesh) {
   using I = Input;
   const auto refused = [](const std::string& words, const std::function<void(I&)>& spoil) {

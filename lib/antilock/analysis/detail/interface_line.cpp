@@ -16,13 +16,6 @@ std::vector<int> dofs_on_edge(const Space& space, int t, int i) {
   return dofs;
 }
 
-/// The place of edge e among the edges of triangle t: it lies opposite the corner of this number.
-int local_edge(const TriangleMesh& mesh, int t, int e) {
-  int i = 0;
-  while (mesh.triangle_edges(t, i) != e) ++i;
-  return i;
-}
-
 /// Numbers the unknowns of the edges, which are sorted, and replaces them by their places.
 void number_places(InterfaceLine& line, int unknowns) {
   line.place.assign(unknowns, -1);
