@@ -1,8 +1,8 @@
 #pragma once
 // The load of chapter 03, by a rule for triangles, and its files.
-#include "antilock/form/quadrature.hpp"
 #include "antilock/io/write_csv.hpp"
 #include "antilock/io/write_vtu.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/study/table.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "antilock/core/eigenvalues.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/solve/penalised_cholesky.hpp"
 #include "course/certified.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 #include "antilock/certificate/equilibrated_flux.hpp"
 #include "antilock/exact/exact_norms.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/measure/contact_edges.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "course/course.hpp"
 
 namespace antilock::tutorial {

@@ -91,8 +91,8 @@
 #include <cmath>
 
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/measure/errors.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/sweep.hpp"
 #include "course/course.hpp"

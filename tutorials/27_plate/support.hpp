@@ -5,9 +5,9 @@
 
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/exact_plate.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/io/write_freefem_mesh.hpp"
 #include "antilock/io/write_vtu.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/table.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 #include "antilock/analysis/inf_sup.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/io/write_vtu.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/study/sweep.hpp"

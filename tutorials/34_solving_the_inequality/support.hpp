@@ -11,7 +11,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/exact_solution.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/flexibility.hpp"
 #include "antilock/solve/solution.hpp"

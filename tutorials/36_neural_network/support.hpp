@@ -20,7 +20,7 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/exact/exact_solution.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/study/table.hpp"
 
 namespace antilock::tutorial {

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "antilock/form/gradient_forms.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/form/sparse_assembly.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "course/course.hpp"
 
 namespace antilock::tutorial {

@@ -1,8 +1,8 @@
 #pragma once
 // The answers to the exercises of 38_order_two, whose page includes this one: to be read
 // after predicting.
-#include "antilock/form/quadrature.hpp"
 #include "antilock/form/strain_projection.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/project_strain.hpp"
 
 /// Returns the problem with one linear equation per triangle of the layer,

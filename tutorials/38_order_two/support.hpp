@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/measure/contact_edges.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "course/course.hpp"
 

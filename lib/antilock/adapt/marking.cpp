@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "antilock/adapt/bisection.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/mesh/layered.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/space/space.hpp"
 
 namespace antilock {

@@ -9,7 +9,7 @@
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/exact/load_modes.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/active_set.hpp"

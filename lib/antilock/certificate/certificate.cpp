@@ -84,8 +84,8 @@
 #include <limits>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/measure/result.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/anti_plane.hpp"
 
 namespace antilock {

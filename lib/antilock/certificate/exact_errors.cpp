@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 
 namespace antilock {
 

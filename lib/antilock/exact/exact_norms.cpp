@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "antilock/exact/exact_solution_data.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 
 namespace antilock {
 namespace {

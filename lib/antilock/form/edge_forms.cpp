@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/form/sparse_assembly.hpp"
+#include "antilock/mesh/quadrature.hpp"
 
 namespace antilock {
 namespace {

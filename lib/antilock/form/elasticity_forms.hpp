@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "antilock/form/gradient_forms.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/space/vector_space.hpp"
 
 namespace antilock {

@@ -9,8 +9,8 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/factored_form.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/form/sparse_assembly.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/space/space.hpp"

@@ -3,7 +3,7 @@
 #include <Eigen/SparseCore>
 
 #include "antilock/form/factored_form.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/space/space.hpp"

@@ -4,8 +4,8 @@
 #include <Eigen/SparseCore>
 
 #include "antilock/form/gradient_forms.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/form/sparse_assembly.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/space/space.hpp"
 
 namespace antilock {

@@ -1,6 +1,6 @@
 #pragma once
 #include "antilock/form/factored_form.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 
 namespace antilock {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 
 namespace antilock {
 

@@ -6,7 +6,7 @@
 namespace antilock {
 
 /// An edge of Gamma_C, the contact boundary, given by its triangle and the local vertex opposite to
-/// it (form/quadrature.hpp: on_edge).
+/// it (mesh/quadrature.hpp: on_edge).
 struct ContactEdge {
   int triangle, opposite;
   double length;  ///< dimensionless, as the mesh

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/measure/contact_edges.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/problem/bounds.hpp"
 
 namespace antilock {

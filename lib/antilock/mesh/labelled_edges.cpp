@@ -32,7 +32,8 @@ std::vector<Labelled> labelled_edges(const TriangleMesh& mesh) {
     if (mesh.edge_tag[edge] == EdgeTag::interior) continue;
     const int triangle = mesh.edge_triangles(edge, 0);
     const int i = local_edge(mesh, triangle, edge);  // it runs from vertex i+1 to vertex i+2
-    labelled.push_back({mesh.triangles(triangle, (i + 1) % 3), mesh.triangles(triangle, (i + 2) % 3),
+    labelled.push_back({mesh.triangles(triangle, (i + 1) % 3),
+                        mesh.triangles(triangle, (i + 2) % 3),
                         physical_number(mesh.edge_tag[edge])});
   }
   return labelled;

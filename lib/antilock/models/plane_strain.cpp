@@ -8,8 +8,8 @@
 #include <map>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/form/strain_projection.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/detail/stiffness_range.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 

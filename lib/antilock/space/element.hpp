@@ -50,6 +50,10 @@ class Element {
   int dofs() const { return 3 * dofs_per_vertex() + 3 * dofs_per_edge() + dofs_per_cell(); }
 };
 
+/// Returns the mean of every basis function of the element over the edge opposite local vertex i.
+/// The means are exact.
+Eigen::VectorXd means_on_edge(const Element& element, int i);
+
 /// The elements. Each is one instance that lives as long as the program. P1 to P4 are conforming.
 /// From P2 on the contact condition holds only at the unknowns on Gamma_C, the contact boundary, so
 /// K_h, the admissible set of the discrete problem, is not a subset of K. CR is Crouzeix-Raviart's

@@ -19,8 +19,7 @@
 // So G v is the L2 projection of grad v for every v in H1. The seven basis functions span P2 and
 // the cubic (l_0 - l_1)(l_1 - l_2)(l_2 - l_0). The load and the pictures use them. The forms use G
 // alone.
-#include <cmath>
-
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/space/element.hpp"
 
 namespace antilock {
@@ -84,39 +83,18 @@ class HybridBdm1 final : public Element {
   /// The mean over edge j with its hat function as weight, that of vertex j+1 (end 0) or of j+2
   /// (end 1). Four Gauss points are exact for v of degree 6.
   static DofFunctional hat_mean(int j, int end) {
-    constexpr int points = 4;
-    // Gauss's rule on (-1, 1), Abramowitz and Stegun, 25.4.30
-    const double inner = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(1.2));
-    const double outer = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(1.2));
-    const Eigen::Vector4d at(-outer, -inner, inner, outer);
-    const Eigen::Vector4d weights(18 - std::sqrt(30.0), 18 + std::sqrt(30.0), 18 + std::sqrt(30.0),
-                                  18 - std::sqrt(30.0));  // their sum is 72
-    DofFunctional functional{Eigen::MatrixX3d::Zero(points, 3), Eigen::VectorXd(points)};
-    for (int q = 0; q < points; ++q) {
-      const double s = (1 + at(q)) / 2;
-      functional.points(q, (j + 1) % 3) = 1 - s;
-      functional.points(q, (j + 2) % 3) = s;
-      functional.weights(q) = 2 * weights(q) / 72 * (end == 0 ? 1 - s : s);
+    const auto [places, weights] = gauss_rule(4);
+    DofFunctional functional{Eigen::MatrixX3d(places.size(), 3), Eigen::VectorXd(places.size())};
+    for (Eigen::Index q = 0; q < places.size(); ++q) {
+      const double hat = end == 0 ? 1 - places(q) : places(q);
+      functional.points.row(q) = on_edge(j, places(q)).transpose();
+      functional.weights(q) = 2 * weights(q) * hat;
     }
     return functional;
   }
 
-  /// The mean over the triangle by Radon's rule, exact for degree 5.
-  static DofFunctional mean() {
-    DofFunctional functional{Eigen::MatrixX3d(7, 3), Eigen::VectorXd(7)};
-    functional.points.row(0).setConstant(1.0 / 3);
-    functional.weights(0) = 9.0 / 40;
-    for (int orbit = 0; orbit < 2; ++orbit) {
-      const double root = orbit == 0 ? std::sqrt(15.0) : -std::sqrt(15.0);
-      const double a = (6 + root) / 21;
-      for (int i = 0; i < 3; ++i) {
-        functional.points.row(1 + 3 * orbit + i).setConstant(a);
-        functional.points(1 + 3 * orbit + i, i) = 1 - 2 * a;
-        functional.weights(1 + 3 * orbit + i) = (155 + root) / 1200;
-      }
-    }
-    return functional;
-  }
+  /// The mean over the triangle, exact for degree 5.
+  static DofFunctional mean() { return {radon_rule().points, radon_rule().weights}; }
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "antilock/analysis/worst_load.hpp"
 #include "antilock/analysis/load_ascent.hpp"
 #include "antilock/core/dense.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"

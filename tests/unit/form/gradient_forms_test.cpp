@@ -5,7 +5,7 @@
 #include "antilock/form/edge_forms.hpp"
 #include "antilock/form/factored_form.hpp"
 #include "antilock/form/gradient_forms.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/space/space.hpp"

@@ -1,5 +1,5 @@
 // Mixed methods of rubber.
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "support/dense.hpp"
 #include "support/measures.hpp"

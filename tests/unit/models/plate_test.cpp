@@ -4,7 +4,7 @@
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/exact/exact_plate.hpp"
 #include "antilock/form/plate_forms.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/coating.hpp"
 #include "support/bodies.hpp"
 #include "support/measures.hpp"

@@ -2,8 +2,8 @@
 // controls all of it.
 #include <Eigen/Dense>
 
-#include "antilock/form/quadrature.hpp"
 #include "antilock/mesh/families.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/space/space.hpp"
 #include "support/scenes.hpp"
 
@@ -54,7 +54,9 @@ TEST(HybridBdm1, InterpolationCommutesWithTheProjectionOfTheGradient) {
     for (int t = 0; t < space.mesh().triangle_count(); ++t)
       off = std::max(
           off, (gradient_at_corners(space, t, u) - affine_projection(space, t, gradient)).norm());
-    EXPECT_LT(off, round_off) << family;
+    // the weights of gauss_rule are eigenvectors, right to 1e-15; the gradient multiplies the
+    // moments of v, up to 2, by numbers up to 12 / h = 48, and some of these terms add up
+    EXPECT_LT(off, 4 * 1e-15 * 2 * 48) << family;
   }
 }
 

@@ -5,8 +5,8 @@
 
 #include "antilock/form/edge_forms.hpp"
 #include "antilock/form/gradient_forms.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/form/sparse_assembly.hpp"
+#include "antilock/mesh/quadrature.hpp"
 
 namespace antilock {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include "antilock/core/error.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/form/sparse_assembly.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/space/vector_space.hpp"
 
 namespace antilock {

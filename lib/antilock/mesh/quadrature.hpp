@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "antilock/core/eigen_memory.hpp"
-#include "antilock/space/element.hpp"
 
 namespace antilock {
 
@@ -30,9 +29,5 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n);
 /// Returns the barycentric coordinates of the point s on the edge opposite local vertex i: s = 0 at
 /// vertex i + 1, 1 at i + 2.
 Eigen::Vector3d on_edge(int i, double s);
-
-/// Returns the mean of every basis function of the element over the edge opposite local vertex i.
-/// The means are exact.
-Eigen::VectorXd means_on_edge(const Element& element, int i);
 
 }  // namespace antilock

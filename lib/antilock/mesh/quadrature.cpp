@@ -1,4 +1,4 @@
-#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/quadrature.hpp"
 
 #include <fmt/format.h>
 
@@ -73,14 +73,6 @@ const Quadrature& radon_rule() { return triangle_rule(5); }
 Eigen::Vector3d on_edge(int i, double s) {
   const Eigen::Matrix3d corner = Eigen::Matrix3d::Identity();
   return (1 - s) * corner.col((i + 1) % 3) + s * corner.col((i + 2) % 3);
-}
-
-Eigen::VectorXd means_on_edge(const Element& element, int i) {
-  const auto [places, weights] = gauss_rule(element.degree() / 2 + 1);
-  Eigen::VectorXd means = Eigen::VectorXd::Zero(element.dofs());
-  for (Eigen::Index q = 0; q < places.size(); ++q)
-    means += weights(q) * element.basis(on_edge(i, places(q)));
-  return means;
 }
 
 }  // namespace antilock
