@@ -1,8 +1,8 @@
 #pragma once
 // The answers to the exercises of 38_order_two, whose page includes this one: to be read
 // after predicting.
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/form/strain_projection.hpp"
-#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/project_strain.hpp"
 
 /// Returns the problem with one linear equation per triangle of the layer,
@@ -21,19 +21,6 @@ VariationalInequality fortin_soulie(VariationalInequality problem, const Space& 
   rows.setFromTriplets(entries.begin(), entries.end());
   append_rows(problem, rows, Eigen::VectorXd::Ones(count), Eigen::VectorXd::Zero(count));
   return problem;
-}
-
-/// Replaces the load by that on the means, L(v) = sum_T v_T int_T f.
-void put_load_on_means(VariationalInequality& problem, const Space& space, const Field& f) {
-  const Quadrature& rule = triangle_rule(8);
-  problem.load.setZero();
-  for (int t = 0; t < space.mesh().triangle_count(); ++t)
-    for (Eigen::Index q = 0;
-         q < rule.weights.size() && space.mesh().region[t] == Region::body; ++q) {
-      const Eigen::Vector2d x = point_in(space.mesh(), t, rule.points.row(q));
-      problem.load(space.cell_dofs()(t, 6)) +=
-          space.mesh().area(t) * rule.weights(q) * f(x(0), x(1));
-    }
 }
 
 /// Returns the largest jump of the normal part of G u_h at the ends of the inner edges of
@@ -98,7 +85,7 @@ const std::vector<tutorial::Exercise> exercises{
          const Space space(mesh_family("delaunay").mesh(n), hybrid_bdm1());
          VariationalInequality problem = assemble(exact.scene, space);
          for (const bool means : {false, true}) {
-           if (means) put_load_on_means(problem, space, paper_load);
+           if (means) problem.load = mean_load_vector(space, paper_load);
            const Solution solution = active_set(problem);
            errors.add({means ? "means" : "functions", 1.0 / n,
                        exact.errors(space, solution).l2, largest_jump(space, solution.u)});

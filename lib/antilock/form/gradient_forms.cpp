@@ -135,6 +135,28 @@ const Quadrature& load_rule(const Element& element) {
   return triangle_rule(std::max(5, 2 * element.degree()));
 }
 
+Eigen::VectorXd mean_load_vector(const Space& space, const Field& f, Region region) {
+  const Element& element = space.element();
+  if (element.nodal() || element.dofs_per_cell() != 1)
+    throw Error("load on the means: element " + element.name() +
+                " has no mean per triangle; accepted: BDM1-hybrid (hybrid_bdm1)");
+  const TriangleMesh& mesh = space.mesh();
+  const Quadrature& rule = triangle_rule(8);
+  const int mean = element.dofs() - 1;  // the unknown of the triangle is the last one
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size());
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] != region) continue;
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+      const double value = f(x(0), x(1));
+      if (!std::isfinite(value))
+        throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0), x(1)));
+      load(space.cell_dofs()(t, mean)) += mesh.area(t) * rule.weights(q) * value;
+    }
+  }
+  return load;
+}
+
 Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = load_rule(space.element());

@@ -218,4 +218,23 @@ TEST(LoadVector, OfTheLayerIntegratesOverTheLayer) {
   EXPECT_NEAR(load_vector(space, height).sum(), 0.5, 1e-12);
 }
 
+// For f = 1 the load on the means and the load on the functions are both int v.
+TEST(LoadVector, OnTheMeansWorksOnTheMeansAlone) {
+  const auto f = [](double x, double y) { return 1 + x * x - 3 * x * y; };
+  const auto one = [](double, double) { return 1.0; };
+  const Space space(unstructured_mesh(3), hybrid_bdm1());
+  const TriangleMesh& mesh = space.mesh();
+  const Eigen::VectorXd load = mean_load_vector(space, f);
+  EXPECT_LT((mean_load_vector(space, one) - load_vector(space, one)).cwiseAbs().maxCoeff(), 1e-14);
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const double body = mesh.region[t] == Region::body ? 1 : 0;
+    double mean = 0;  // of f, by the midpoints of the edges, exact for degree 2
+    for (const auto point : midpoint_rule().points.rowwise())
+      mean += f(point_in(mesh, t, point)(0), point_in(mesh, t, point)(1)) / 3;
+    EXPECT_NEAR(load(space.cell_dofs()(t, 6)), body * mesh.area(t) * mean, 1e-14);
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(load(space.cell_dofs()(t, i)), 0);
+  }
+  expect_refused([&] { mean_load_vector(Space(mesh, p1_bubble()), f); }, "no mean per triangle");
+}
+
 }  // namespace antilock::test::form_test::gradient_forms_test

@@ -5,6 +5,7 @@
 #include "antilock/certificate/certificate.hpp"
 #include "antilock/certificate/companion.hpp"
 #include "antilock/exact/exact_table.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/mesh/families.hpp"
 #include "antilock/mesh/quadrature.hpp"
 #include "antilock/space/space.hpp"
@@ -14,20 +15,6 @@
 namespace antilock::test::measure_test::hybrid_bdm1_bound_test {
 
 const std::vector<std::string> families{"structured", "columns", "jittered", "rows", "delaunay"};
-
-/// The load on the means alone, L(v) = sum_T v_T int_T f, for which A G u_h is in equilibrium with
-/// the mean of f.
-void put_load_on_means(VariationalInequality& problem, const Space& space, const Field& f) {
-  const Quadrature& rule = triangle_rule(8);
-  problem.load.setZero();
-  for (int t = 0; t < space.mesh().triangle_count(); ++t)
-    for (Eigen::Index q = 0; q < rule.weights.size() && space.mesh().region[t] == Region::body;
-         ++q) {
-      const Eigen::Vector2d x = point_in(space.mesh(), t, rule.points.row(q));
-      problem.load(space.cell_dofs()(t, 6)) +=
-          space.mesh().area(t) * rule.weights(q) * f(x(0), x(1));
-    }
-}
 
 /// A solution without a condition on Gamma_C, or with contact.
 struct Solved {
@@ -40,7 +27,7 @@ struct Solved {
         assemble(Scene({f}, StiffLayer{epsilon},
                        contact ? std::optional(UnilateralContact{}) : std::nullopt),
                  space);
-    put_load_on_means(problem, space, f);
+    problem.load = mean_load_vector(space, f);  // A G u_h is in equilibrium with the mean of f
     solution = active_set(problem);
   }
 
