@@ -210,7 +210,7 @@ Found proximal_by_hand(const OnContact& p) {
     const VectorXd before = psi;
     const MatrixXd stiff = h / alpha * p.f;
     VectorXd step = VectorXd::Ones(n);
-    while (!tutorial::has_converged(step, psi - before)) {
+    while (!newton_step_has_converged(step, psi - before)) {
       MatrixXd matrix = stiff;
       matrix.diagonal() += psi.array().exp().matrix();
       const VectorXd residual = psi.array().exp().matrix() - p.w + stiff * (psi - before);
@@ -244,7 +244,7 @@ Found proximal_published(const OnContact& p) {
   for (double change = 1, alpha = 2; change > 1e-9; alpha *= 2, ++found.outer) {
     const VectorXd before = psi;
     VectorXd step = VectorXd::Ones(psi.size());
-    while (!tutorial::has_converged(step, psi - before)) {
+    while (!newton_step_has_converged(step, psi - before)) {
       const tutorial::Exponential e(psi);
       const VectorXd residual = e.integrals - n * p.w + nfn * (psi - before) / alpha;
       step = -tutorial::solve_positive(e.products + nfn / alpha, residual,

@@ -85,13 +85,6 @@ inline void count_step(Found& found, const std::string& solver, int most) {
                        most);
 }
 
-/// Returns whether a Newton step for psi is small, relative to 1 + |moved|, the change of
-/// psi so far in the proximal step. Convergence is quadratic, so that the next step would
-/// have some 14 digits.
-inline bool has_converged(const Eigen::VectorXd& step, const Eigen::VectorXd& moved) {
-  return (step.array().abs() <= 1e-7 * (1 + moved.array().abs())).all();
-}
-
 /// Returns the largest share of a Newton step, at most 1, by which no psi grows by more
 /// than
 /// 8. So exp does not overflow.

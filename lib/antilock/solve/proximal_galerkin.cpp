@@ -18,10 +18,6 @@ namespace {
 
 const std::string name = "proximal_galerkin";
 
-/// A Newton step has converged where it moves each psi_i by at most this number, relative to 1 +
-/// |psi_i - psi'_i|. Convergence is quadratic: the step after it would move psi by the square.
-constexpr double newton_tolerance = 1e-7;
-
 /// A value that no force moves must be inside its bounds by this fraction of the size that u has
 /// without locking.
 constexpr double least_distance = 1e-12;
@@ -164,8 +160,7 @@ class ProximalPoint {
       ++newton_steps;
       if (!factor.positive_definite()) break;  // derivatives of 0 where F is singular
       step = -factor.solve(residual);
-      const Eigen::ArrayXd reached = newton_tolerance * (1 + (psi - before).array().abs());
-      if ((step.array().abs() <= reached).all()) return psi + step;
+      if (newton_step_has_converged(step, psi - before)) return psi + step;
       const double slope = step.dot(residual);
       double length = 1;
       Eigen::VectorXd next = psi + step;
@@ -248,6 +243,11 @@ bool violates_no_bound(const VariationalInequality& problem, const Eigen::Vector
 }
 
 }  // namespace
+
+bool newton_step_has_converged(const Eigen::VectorXd& step, const Eigen::VectorXd& moved) {
+  constexpr double tolerance = 1e-7;
+  return (step.array().abs() <= tolerance * (1 + moved.array().abs())).all();
+}
 
 Solution proximal_galerkin(const VariationalInequality& problem, PenalisedCholesky& factor,
                            const ProximalGalerkinOptions& options) {

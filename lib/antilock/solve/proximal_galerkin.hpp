@@ -21,6 +21,11 @@ struct ProximalGalerkinOptions {
   CorrectionOptions corrections{.tolerance = 1e-12};
 };
 
+/// Returns whether a Newton step for the latent variable (C) has converged: whether it moves each
+/// psi_i by at most 1e-7 (1 + |moved_i|). `moved` (C) is the change of psi in the proximal step so
+/// far. Convergence is quadratic, so that the step after it would move psi by the square.
+bool newton_step_has_converged(const Eigen::VectorXd& step, const Eigen::VectorXd& moved);
+
 /// Solves by the latent variable proximal point method: proximal Galerkin (B. Keith and T. M.
 /// Surowiec, Found. Comput. Math., 2024; J. S. Dokken, P. E. Farrell, B. Keith, I. P. A.
 /// Papadopoulos and T. M. Surowiec, Comput. Methods Appl. Mech. Engrg., 2025), with a lumped latent

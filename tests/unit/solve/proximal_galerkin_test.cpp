@@ -234,6 +234,15 @@ TEST(ProximalGalerkin, OneUnknownFollowsItsEquation) {
   }
 }
 
+// A step that is not finite has not converged, and the largest entry decides.
+TEST(ProximalGalerkin, MeasuresANewtonStepByTheChangeOfTheLatentVariable) {
+  const Eigen::Vector2d moved(0, -1e3);
+  EXPECT_TRUE(newton_step_has_converged(Eigen::Vector2d(1e-8, 1e-5), moved));
+  EXPECT_FALSE(newton_step_has_converged(Eigen::Vector2d(1e-5, 1e-8), moved));
+  EXPECT_FALSE(newton_step_has_converged(Eigen::Vector2d(1e-8, -1e-3), moved));
+  EXPECT_FALSE(newton_step_has_converged(Eigen::Vector2d(nan, 0), moved));
+}
+
 TEST(ProximalGalerkin, RefusesWhatItCannotSolve) {
   VariationalInequality problem = one_spring();
   ProximalGalerkinOptions options;
