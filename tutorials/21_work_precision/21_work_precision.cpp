@@ -27,7 +27,8 @@
 // where time was the reason, finer meshes are not tried. No verdict is about seconds: they
 // depend on the machine.
 // [Chapter 34](../34_solving_the_inequality/34_solving_the_inequality.cpp) has the steps
-// and the seconds of further solvers.
+// and the seconds of further solvers, and a price list of its own, which the benchmark
+// appends to that of this chapter.
 //
 // ## How many steps
 //

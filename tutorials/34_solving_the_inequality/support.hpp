@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "antilock/core/dense.hpp"
@@ -16,6 +18,7 @@
 #include "antilock/solve/flexibility.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/study/table.hpp"
+#include "course/markdown.hpp"
 #include "programs/report.hpp"
 
 namespace antilock::tutorial {
@@ -57,6 +60,18 @@ inline OnContact condense(const VariationalInequality& problem) {
 inline double size_of(const OnContact& p) {
   const double size = p.w.lpNorm<Eigen::Infinity>();
   return size > 0 ? size : 1;
+}
+
+/// Runs `work` and returns the median of its wall seconds.
+inline double median_seconds(int repeats, const std::function<void()>& work) {
+  std::vector<double> seconds;
+  for (int k = 0; k < repeats; ++k) {
+    const Stopwatch watch;
+    work();
+    seconds.push_back(watch.seconds());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  return seconds[seconds.size() / 2];
 }
 
 /// Returns the indices of the marks that are true.
@@ -189,6 +204,9 @@ inline Table shapes(const std::vector<Eigen::VectorXd>& guesses,
   return table;
 }
 
+/// The name under which the seconds of w and F are recorded.
+inline const std::string condensation = "w and F";
+
 /// All runs of the chapter.
 struct Study {
   struct Run {
@@ -198,7 +216,13 @@ struct Study {
   Table runs = Table({"space", "solver", "epsilon", "h", "steps", "outer", "seconds",
                       "error", "answer", "why"});
   Table prices = Table({"space", "solver", "epsilon", "h", "seconds"});
+  Table meshes = Table({"space", "epsilon", "h", "unknowns", "relative"});
+  int repeats = 1;  ///< runs of each solver, whose median is its time
 
+  /// Adds a mesh with the relative error of u_h at the unknowns.
+  void add_mesh(const Run& run, int unknowns, double relative) {
+    meshes.add({run.space, run.epsilon, run.h, unknowns, relative});
+  }
   void add_price(const Run& run, double seconds) {
     prices.add({run.space, run.solver, run.epsilon, run.h, seconds});
   }
@@ -212,8 +236,9 @@ struct Study {
            const std::function<Found()>& solve) {
     const Stopwatch watch;
     try {
-      const Found found = solve();
-      const double seconds = watch.seconds(), size = exact.s.lpNorm<Eigen::Infinity>();
+      Found found;
+      const double seconds = median_seconds(repeats, [&] { found = solve(); });
+      const double size = exact.s.lpNorm<Eigen::Infinity>();
       const double off = (found.s - exact.s).lpNorm<Eigen::Infinity>();
       const bool locked = size < 1e-12 && off < 1e-8;
       const double error = locked ? off : off / size;
@@ -229,6 +254,75 @@ struct Study {
     }
   }
 };
+
+/// Returns the largest h at which the relative error is within the tolerance at every
+/// epsilon, or 0. `meshes` has the meshes of one space.
+inline double coarsest_mesh(const Table& meshes, double tolerance) {
+  double coarsest = 0;
+  for (const TableEntry& h : meshes.unique("h"))
+    if (meshes.filter("h", h).max("relative") <= tolerance)
+      coarsest = std::max(coarsest, h.number());
+  return coarsest;
+}
+
+/// Returns `unknowns: seconds at the first epsilon / at the second / ...` on one mesh. The
+/// seconds are those of the whole problem. `prices` has the runs on this mesh.
+inline std::string price(const Table& meshes, const Table& prices,
+                         const std::string& solver, bool on_contact) {
+  std::string text = fmt::format("{}:", meshes.max("unknowns"));
+  for (const TableEntry& epsilon : meshes.entries("epsilon")) {
+    const Table at = prices.filter("epsilon", epsilon), own = at.filter("solver", solver);
+    std::string seconds = "-";
+    if (own.size() == 1) {
+      const double before =
+          on_contact ? at.filter("solver", condensation).number("seconds") : 0.0;
+      seconds = fmt::format("{:.2g}", before + own.number("seconds"));
+    }
+    text += (text.back() == ':' ? " " : " / ") + seconds;
+  }
+  return text;
+}
+
+/// Writes price_list.md, the seconds to an accuracy: one row per space and solver.
+inline void write_price_list(const std::filesystem::path& folder, const Study& study) {
+  const std::vector<std::pair<std::string, bool>> solvers{
+      {"active_set of the library", false},
+      {"active set", true},
+      {"augmented Lagrangian", true},
+      {"proximal Galerkin", true},
+      {"proximal Galerkin, library", false},
+      {"interior point", true},
+      {"Uzawa", true},
+      {"Uzawa, accelerated", true},
+      {"MPRGP", false}};  // whether it is a solver on Gamma_C, which needs w and F
+  Table page({"element and mesh", "solver", "1e-2", "1e-3"});
+  for (const char* space : {"P1 structured", "CR unstructured"}) {
+    const Table meshes = study.meshes.filter("space", space),
+                prices = study.prices.filter("space", space);
+    for (const auto& [solver, on_contact] : solvers) {
+      if (prices.filter("solver", solver).size() == 0) continue;
+      std::vector<TableEntry> row{space, solver};
+      for (const double tolerance : {1e-2, 1e-3}) {
+        const double h = coarsest_mesh(meshes, tolerance);
+        const bool reached = h > 0;
+        row.emplace_back(reached ? price(meshes.filter("h", h), prices.filter("h", h),
+                                         solver, on_contact)
+                                 : std::string(">"));
+      }
+      page.add(std::move(row));
+    }
+  }
+  write_markdown(
+      folder / "price_list.md",
+      fmt::format("Further solvers, of chapter 34. An entry has the number of unknowns, a "
+                  "colon, and the seconds at epsilon = 1 / 0.01 / 1e-6 / 0 (medians of {} "
+                  "runs). The relative error at the unknowns is below 1e-2 or 1e-3 at each "
+                  "of them. The seconds contain those of w and F where the solver needs "
+                  "them, and not mesh and assembly. `-` means that the solver has no answer, "
+                  "and `>` that the finest mesh is too coarse.",
+                  study.repeats),
+      page);
+}
 
 /// Returns the runs of a picture: P1 on columns, the solvers that answer at every epsilon.
 inline Table chart(const Table& runs) {
