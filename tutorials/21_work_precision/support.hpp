@@ -356,4 +356,39 @@ inline void write_price_list(const std::filesystem::path& folder,
       page);
 }
 
+/// Returns `unknowns: seconds` of the coarsest mesh whose relative energy error is within
+/// the tolerance, or `>` and those of the finest mesh. `runs` are those of one element at
+/// one epsilon, from coarse to fine.
+inline std::string cheapest(const Table& runs, double tolerance) {
+  const Table enough =
+      runs.filter_number("relative", [&](double error) { return error <= tolerance; });
+  if (enough.size() == 0)
+    return fmt::format("> {}: > {:.2g}", runs.last("unknowns"), runs.last("seconds"));
+  return fmt::format("{}: {:.2g}", enough.first("unknowns"), enough.first("seconds"));
+}
+
+/// Writes order_two.csv, the runs, and order_two.md, one row per element and epsilon.
+inline void write_order_two(const std::filesystem::path& folder, const Table& runs,
+                            int repeats) {
+  Table page({"element", "epsilon", "10 %", "3 %", "1 %", "0.3 %"});
+  for (const TableEntry& element : runs.unique("element"))
+    for (const TableEntry& epsilon : runs.unique("epsilon")) {
+      const Table here = runs.filter("element", element).filter("epsilon", epsilon);
+      std::vector<TableEntry> row{element, epsilon};
+      for (const double tolerance : {0.1, 0.03, 0.01, 0.003})
+        row.emplace_back(cheapest(here, tolerance));
+      page.add(std::move(row));
+    }
+  runs.write(folder / "order_two.csv");
+  write_markdown(
+      folder / "order_two.md",
+      fmt::format("What order 2 costs, on rows of triangles without columns (chapter 38): "
+                  "the number of unknowns, a colon, and the seconds of the active set "
+                  "(medians of {} runs, without mesh and assembly). The energy error is "
+                  "then below 10, 3, 1 or 0.3 % of the energy norm of u. `>` means that "
+                  "the finest mesh is too coarse.",
+                  repeats),
+      page);
+}
+
 }  // namespace antilock::tutorial

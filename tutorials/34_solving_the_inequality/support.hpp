@@ -19,6 +19,7 @@
 #include "antilock/solve/solution.hpp"
 #include "antilock/study/table.hpp"
 #include "course/markdown.hpp"
+#include "course/median_seconds.hpp"
 #include "programs/report.hpp"
 
 namespace antilock::tutorial {
@@ -60,18 +61,6 @@ inline OnContact condense(const VariationalInequality& problem) {
 inline double size_of(const OnContact& p) {
   const double size = p.w.lpNorm<Eigen::Infinity>();
   return size > 0 ? size : 1;
-}
-
-/// Runs `work` and returns the median of its wall seconds.
-inline double median_seconds(int repeats, const std::function<void()>& work) {
-  std::vector<double> seconds;
-  for (int k = 0; k < repeats; ++k) {
-    const Stopwatch watch;
-    work();
-    seconds.push_back(watch.seconds());
-  }
-  std::sort(seconds.begin(), seconds.end());
-  return seconds[seconds.size() / 2];
 }
 
 /// Returns the indices of the marks that are true.
