@@ -81,7 +81,63 @@ VariationalInequality pushed(const Rubber& rubber, const VectorSpace& space,
   return assemble(scene, space);
 }
 
+// ## Order two, without jumps
+//
+// CR has motions without energy, because its functions are continuous in the mean of an
+// edge alone, and a rotation of a triangle about the midpoint of an edge does not change
+// that mean. Continuity in *two* means per edge, those with the hat functions of its ends,
+// forbids it: a rotation is affine on the edge. Korn's inequality then holds with one
+// constant on all shape-regular meshes, and without jumps (Brenner 2004, proved there).
+//
+// Parabolas that are continuous in these means are the element of *Fortin and Soulie*
+// (1983). Continuity in both means is continuity at the two Gauss points of the edge. In
+// this library it is the hybrid form of BDM1
+// ([chapter 38](../38_order_two/38_order_two.cpp)) with one linear equation per triangle
+// and component, $∑_j (a_j^+ - a_j^-) = 0$ (`space/fortin_soulie.cpp`). The equations are
+// rows of $B$ with the compliance 0. So the iterated penalty treats them as it treats
+// $\operatorname{div} u = 0$ in the limit.
+// (Without them the element has a projected gradient, and no Korn inequality.)
+//
+// $\operatorname{div} u$ is affine on each triangle: three rows of $B$. The test is a
+// smooth $u$ that keeps the volume, with $u = 0$ on three sides and no traction on the
+// fourth, at λ = 1 and in the limit.
+Table smooth_errors() {
+  Table errors({"element", "epsilon", "h", "unknowns", "gradient"});
+  for (const Element* element : {&crouzeix_raviart(), &fortin_soulie()})
+    for (const double epsilon : {1.0, 0.0})
+      for (const int n : {4, 8, 16, 32}) {
+        const Space one(structured_mesh(n, Domain{0}), *element);
+        PlaneStrain scene;  // with jumps for CR
+        scene.epsilon = epsilon;
+        scene.prescribed_displacement = 0;
+        VariationalInequality problem = assemble(scene, {one, one});
+        problem.bounds = {};
+        problem.load << load_vector(one, tutorial::Swirl::load_x),
+            load_vector(one, tutorial::Swirl::load_y);
+        const Eigen::VectorXd u = active_set(problem).u;
+        const double squared =
+            tutorial::squared_gradient_error(one, u.head(one.size()), 0) +
+            tutorial::squared_gradient_error(one, u.tail(one.size()), 1);
+        errors.add({element->name(), epsilon, 1.0 / n, problem.free_count(),
+                    std::sqrt(squared)});
+      }
+  return errors;
+}
+
 void judge(const Table& checks, const Table& forces, int cells, tutorial::Report& report);
+
+void judge_smooth(const Table& errors, tutorial::Report& report) {
+  for (const double epsilon : {1.0, 0.0}) {
+    const Table here = errors.filter("epsilon", epsilon);
+    report.claim_order(here.filter("element", "CR"), "gradient", "h", 0.8, 1.2,
+                       fmt::format("CR with jumps, epsilon = {}: gradient (observed)",
+                                   epsilon));
+    report.claim_order(here.filter("element", "FS"), "gradient", "h", 1.8, 2.2,
+                       fmt::format("Fortin and Soulie without jumps, epsilon = {}: "
+                                   "gradient (observed)",
+                                   epsilon));
+  }
+}
 
 void push(const tutorial::Options& options, tutorial::Report& report) {
   Table checks({"element", "unknowns", "kernel", "patch", "zero_modes", "without_jumps",
@@ -124,9 +180,15 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
                              : TableEntry(""),
                 tutorial::bulge(x, solution.u, 0), tutorial::bulge(x, solution.u, 1)});
   }
+  report.stage("a smooth field that keeps the volume");
+  const Table smooth = smooth_errors();
   report.finish();
   tutorial::show_rubber(options.out, checks, forces, gap);
+  smooth.filter("epsilon", 0.0)
+      .pivot("h", "element", "gradient")
+      .print("lambda = infinity, a smooth field: error of the gradient, by h", 3);
   judge(checks, forces, options.cells, report);
+  judge_smooth(smooth, report);
 }
 
 void judge(const Table& checks, const Table& forces, int cells, tutorial::Report& report) {
@@ -180,6 +242,10 @@ void judge(const Table& checks, const Table& forces, int cells, tutorial::Report
 // λ = 1, and more than 100 % off in the limit. The pressure of P1 reaches 46 in stripes,
 // where that of CR stays below 0.7, and Taylor–Hood's at about 1 (chapter 29).
 //
+// Fortin and Soulie's element has order 2 for the smooth field, at λ = 1 and in the limit,
+// and CR with its jumps has order 1. It needs no jumps.
+// :output: lambda = infinity, a smooth field
+//
 // :figure: elasticity_force
 // :live: rubber
 //
@@ -190,6 +256,13 @@ void judge(const Table& checks, const Table& forces, int cells, tutorial::Report
 // 2. Count what is left at 1/h = 4 and 8: how does $\dim G_h$ of P1 grow under refinement?
 //    And that of CR?
 // 3. On paper: in a crossed square, why does the fourth condition follow from three?
+//
+// ## Further reading
+//
+// - S. C. Brenner, *Korn's inequalities for piecewise $H^1$ vector fields*, Math. Comp. 73
+//   (2004), doi:10.1090/S0025-5718-03-01579-5
+// - M. Fortin, M. Soulie, *A non-conforming piecewise quadratic finite element on
+//   triangles*, Int. J. Numer. Methods Eng. 19 (1983), doi:10.1002/nme.1620190405
 
 #include "answers.hpp"
 

@@ -1,6 +1,14 @@
 #pragma once
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/io/write_freefem_mesh.hpp"
 #include "antilock/io/write_vtu.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/study/table.hpp"
 #include "course/chapter.hpp"
@@ -39,6 +47,52 @@ inline void show_rubber(const std::filesystem::path& out, const Table& checks,
   Table obstacle({"x", "y"});
   for (int i = 0; i <= 40; ++i) obstacle.add({-0.1 + 0.03 * i, -gap(-0.1 + 0.03 * i)});
   obstacle.write(out / "obstacle.csv");
+}
+
+/// u = (s g', -s' g) with s = sin^2(pi x) and g = y^3 (1 - y)^2: a field that keeps the
+/// volume, without traction on y = 0, and 0 on the other sides of the unit square. The load
+/// -lap u belongs to it at every lambda, with the pressure 0.
+struct Swirl {
+  static std::array<double, 4> s(double x) {  ///< s and its derivatives
+    using std::numbers::pi;
+    const double sine = std::sin(2 * pi * x), cosine = std::cos(2 * pi * x);
+    return {(1 - cosine) / 2, pi * sine, 2 * pi * pi * cosine, -4 * pi * pi * pi * sine};
+  }
+  static std::array<double, 4> g(double y) {
+    return {y * y * y * (1 - y) * (1 - y), y * y * (3 - 8 * y + 5 * y * y),
+            y * (6 - 24 * y + 20 * y * y), 6 - 48 * y + 60 * y * y};
+  }
+  static double load_x(double x, double y) {
+    return -s(x)[2] * g(y)[1] - s(x)[0] * g(y)[3];
+  }
+  static double load_y(double x, double y) {
+    return s(x)[3] * g(y)[0] + s(x)[1] * g(y)[2];
+  }
+  static Eigen::Matrix2d gradient(double x, double y) {  ///< a row per component
+    Eigen::Matrix2d rows;
+    rows << s(x)[1] * g(y)[1], s(x)[0] * g(y)[2], -s(x)[2] * g(y)[0], -s(x)[1] * g(y)[1];
+    return rows;
+  }
+};
+
+/// Returns the squared error of the gradient of one component in L2.
+inline double squared_gradient_error(const Space& space, const Eigen::VectorXd& u,
+                                     int component) {
+  const TriangleMesh& mesh = space.mesh();
+  const Quadrature& rule = triangle_rule(8);
+  double squared = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::Vector3d lambda = rule.points.row(q);
+      const Eigen::Vector2d x = point_in(mesh, t, lambda);
+      const Eigen::RowVector2d discrete = u(space.cell_dofs().row(t)).transpose() *
+                                          space.element().derivative(lambda) *
+                                          barycentric_gradients(mesh, t);
+      const Eigen::RowVector2d off =
+          Swirl::gradient(x(0), x(1)).row(component) - discrete;
+      squared += mesh.area(t) * rule.weights(q) * off.squaredNorm();
+    }
+  return squared;
 }
 
 }  // namespace antilock::tutorial

@@ -114,7 +114,8 @@ void at_steps(const VectorSpace& space, bool clamped_in_x, Act&& act) {
   const TriangleMesh& mesh = space.x.mesh();
   for (const auto& [part, first] :
        {std::pair<const Space*, int>{&space.x, 0}, {&space.y, space.x.size()}}) {
-    if (part->element().conforming()) continue;  // no steps
+    if (part->element().conforming()) continue;           // no steps
+    if (part->element().equation().size() > 0) continue;  // Korn's inequality holds as it is
     for (int e = 0; e < mesh.edge_count(); ++e) {
       const bool interior = mesh.edge_triangles(e, 1) >= 0;
       const bool dirichlet = is_dirichlet(mesh.edge_tag[e]) && (clamped_in_x || part == &space.y);

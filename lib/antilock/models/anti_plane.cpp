@@ -313,6 +313,9 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   if (space.element().dofs_per_cell() == space.element().dofs())
     throw Error("anti-plane: no unknown of the element " + space.element().name() +
                 " is shared by two triangles; accepted: such an element with an InteriorPenalty");
+  if (space.element().equation().size() > 0)
+    throw Error("anti-plane: element " + space.element().name() +
+                " is not accepted; BDM1-hybrid (hybrid_bdm1), of the same order");
   static_assert(std::variant_size_v<Layer> == 4,
                 "what a new layer adds to A1 and to B stands here");
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());

@@ -16,6 +16,10 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
     if (!(material.mu > 0 && material.lambda >= 0))
       throw Error(fmt::format("coating: lambda = {}, mu = {}; accepted lambda >= 0 and mu > 0",
                               material.lambda, material.mu));
+  for (const Space* part : {&space.x, &space.y})
+    if (part->element().equation().size() > 0)
+      throw Error("coating: element " + part->element().name() +
+                  " is not accepted; P1 to P4, or CR, or P1 with CR");
   const auto& [lambda, mu] = coating.layer;
   Eigen::Matrix4d body = coating.body.matrix(), membrane = Eigen::Matrix4d::Zero();
   membrane(0, 0) = coating.layer.plane_strain_modulus();

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "antilock/core/error.hpp"
+#include "antilock/form/sparse_assembly.hpp"
 #include "antilock/form/strain_projection.hpp"
-#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/detail/stiffness_range.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 
@@ -63,6 +63,34 @@ void add_friction(VariationalInequality& problem, const Profile& g, const Space&
   problem.bounds = {unknowns, {lower, upper, force_limit}};
 }
 
+/// Appends the equations of an element, one per triangle, as rows of B with the compliance 0.
+/// `first` is the number of the first unknown of the component.
+///
+/// M does not change the solution, but the number of corrections. In fortin_soulie the difference
+/// of the two means of an edge enters the equations of its two triangles with opposite signs, as a
+/// flux enters a divergence. So a function whose equations are violated by g_T has an energy of
+/// about 16 sum_T g_T^2 |Omega| / |T| at least, and M has the factor |Omega| / |T|. With 300 in
+/// front of it there are 4 to 8 corrections to 1e-11, for lambda = 1, 1e4 and infinity and 1/h = 8
+/// to 32. With M = 1 there are more than 60 at lambda = 1, where the penalty is 1 (measured). A
+/// much larger M would raise the penalty of div u, which follows from the largest entries of
+/// B' M B (problem/choose_penalty.hpp).
+void append_equations(VariationalInequality& problem, const Space& space, int first) {
+  const Eigen::VectorXd equation = space.element().equation();
+  if (equation.size() == 0) return;
+  const TriangleMesh& mesh = space.mesh();
+  const int count = mesh.triangle_count();
+  Triplets entries;
+  Eigen::VectorXd areas(count);
+  for (int t = 0; t < count; ++t) {
+    areas(t) = mesh.area(t);
+    for (Eigen::Index i = 0; i < equation.size(); ++i)
+      if (equation(i) != 0) entries.emplace_back(t, first + space.cell_dofs()(t, i), equation(i));
+  }
+  const Eigen::VectorXd m = 300 * areas.sum() * areas.cwiseInverse();
+  append_rows(problem, from_triplets<RowMatrix>(count, problem.size(), entries), m,
+              Eigen::VectorXd::Zero(count));
+}
+
 }  // namespace
 
 void add_block_loading(VariationalInequality& problem, const BlockLoading& press,
@@ -92,8 +120,9 @@ void add_block_loading(VariationalInequality& problem, const BlockLoading& press
   set_dirichlet(problem, fixed);
   std::vector<int> normal;
   for (const int i : space.y.contact_dofs()) normal.push_back(shift + i);
-  problem.bounds = Bounds::lower_on(
-      normal, -space.y.dof_coordinates().col(0)(space.y.contact_dofs()).unaryExpr(press.gap));
+  const auto gap_below = [&](double x, double) { return press.gap(x); };
+  problem.bounds =
+      Bounds::lower_on(normal, -dof_values(space.y, space.y.contact_dofs(), gap_below));
   if (press.friction) add_friction(problem, press.friction, space.x);
 }
 
@@ -110,6 +139,8 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
   problem.m = std::move(div.m);
   problem.compliance = scene.epsilon;
   add_block_loading(problem, scene, space);
+  append_equations(problem, space.x, 0);
+  append_equations(problem, space.y, space.x.size());
   return problem;
 }
 

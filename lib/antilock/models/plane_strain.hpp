@@ -17,7 +17,8 @@ struct BlockLoading {
   bool sliding = false;
   Profile gap = [](double) { return 0.0; };
   Profile friction = {};   ///< g(x) >= 0, a force per length; empty: none
-  double jump_weight = 1;  ///< of jump_form; 0: none (CR has zero modes then)
+  /// The weight of jump_form; 0: none (CR has zero modes then). Only CR has jumps to be penalised.
+  double jump_weight = 1;
 };
 
 /// Adds jump_form, the prescribed values and the bounds to a problem that has its A1, and sets its
@@ -41,8 +42,10 @@ struct PlaneStrain : BlockLoading {
   bool continuous_pressure = false;
 };
 
-/// Assembles the problem (6) of plane strain on a vector space. Throws Error for values out of
-/// range.
+/// Assembles the problem (6) of plane strain on a vector space. Of the elements whose unknowns are
+/// means, fortin_soulie is accepted. Its equations are rows of B with the compliance 0, behind
+/// those of div u: first those of u_x, one per triangle, then those of u_y. Throws Error for values
+/// out of range, and for hybrid_bdm1, which has no Korn inequality.
 VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& space);
 
 /// Returns the mesh with the sides x = 0 and x = 1 of the unit square free: the clamped edges of

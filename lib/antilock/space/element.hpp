@@ -38,6 +38,10 @@ class Element {
   virtual DofFunctional functional(int i) const {
     return {support_points().row(i), Eigen::VectorXd::Ones(1)};
   }
+  /// Returns the coefficients (m) of a linear equation that the m unknowns of each triangle satisfy
+  /// in V_h. Empty: there is none. A model appends these equations to its problem, or refuses the
+  /// element.
+  virtual Eigen::VectorXd equation() const { return {}; }
   virtual bool nodal() const { return true; }  ///< every unknown is the value at its support point
   /// Returns the m values of the basis at lambda.
   virtual Eigen::VectorXd basis(const Eigen::Vector3d& lambda) const = 0;
@@ -63,7 +67,8 @@ Eigen::VectorXd means_on_edge(const Element& element, int i);
 /// continuity: its three unknowns of a triangle are the values at the midpoints of its edges, and
 /// no unknown is shared. It needs a form that couples triangles (form/interior_penalty.hpp).
 /// hybrid_bdm1 is nonconforming, of order 2. Its unknowns are weighted means of u, two on each edge
-/// and one on the triangle (space/hybrid_bdm1.cpp).
+/// and one on the triangle (space/hybrid_bdm1.cpp). fortin_soulie is the same with one equation per
+/// triangle: nonconforming P2 (space/fortin_soulie.cpp). It is for plane strain.
 const Element& p1();
 const Element& p2();
 const Element& p3();
@@ -72,6 +77,7 @@ const Element& crouzeix_raviart();
 const Element& p1_bubble();
 const Element& discontinuous_p1();
 const Element& hybrid_bdm1();
+const Element& fortin_soulie();
 /// Returns one of P1 to P6 by its degree. Throws Error for another degree.
 const Element& lagrange(int degree);
 /// Returns an element by its name, "P1" to "P6", "CR", "P1+bubble" or "BDM1-hybrid" (for short

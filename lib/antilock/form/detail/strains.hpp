@@ -13,9 +13,10 @@ class Gradients {
   Gradients(const VectorSpace& space, const Quadrature& rule)
       : space_(space), m_(space.x.element().dofs()), n_(space.y.element().dofs()) {
     for (const Space* part : {&space.x, &space.y})
-      if (!part->element().nodal())
+      if (!part->element().nodal() && part->element().equation().size() == 0)
         throw Error("strains: element " + part->element().name() +
-                    " has no Korn inequality; accepted: an element whose unknowns are values");
+                    " has no Korn inequality; accepted: an element whose unknowns are values, "
+                    "or FS (fortin_soulie)");
     for (const auto point : rule.points.rowwise()) {
       of_x_.push_back(space.x.element().derivative(point));
       of_y_.push_back(space.y.element().derivative(point));
