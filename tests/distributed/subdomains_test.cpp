@@ -12,6 +12,7 @@
 #include "antilock/distributed/partition.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/distributed/snesvi.hpp"
+#include "antilock/distributed/tao.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/refine.hpp"
@@ -232,18 +233,39 @@ TEST(Snesvi, LosesTheSummedMatrixAndSolvesTheSplitForm) {
     if (epsilon > 0) {
       const DistributedProblem summed(question, space, PenaltyChoice::none);
       State state = zero_state(summed);
-      const distributed::SnesviEnd end = distributed::snesvi(summed, state, false);
+      const distributed::PetscEnd end = distributed::snesvi(summed, state, false);
       EXPECT_EQ(end.converged, epsilon == 1e-2) << end.reason;
     }
     const DistributedProblem problem(question, space, PenaltyChoice::serial_default);
     State state = zero_state(problem);
-    const distributed::SnesviEnd end = distributed::snesvi(problem, state, true);
+    const distributed::PetscEnd end = distributed::snesvi(problem, state, true);
     EXPECT_TRUE(end.converged) << end.reason;
     EXPECT_LE(end.corrections, 6);
     EXPECT_NEAR(largest(state.u.maxCoeff()), serial.u.maxCoeff(), 1e-9 * serial.u.maxCoeff());
     EXPECT_NEAR(-largest(-state.u.minCoeff()), serial.u.minCoeff(), 1e-9 * serial.u.maxCoeff());
     EXPECT_LE(kkt_report(problem, state).residual, 1e-9);
   }
+}
+
+// Where TAO reports convergence, its u is that of the serial solver. Its tolerances for the summed
+// matrix are PETSc's own: 1e-8 for the gradient over the energy.
+TEST(Tao, HasTheSerialSolutionWhereItReportsConvergence) {
+  const TriangleMesh mesh = structured_mesh(16);
+  const Scene question({paper_load}, StiffLayer{1e-2}, UnilateralContact{});
+  const Solution serial = active_set(assemble(question, Space(mesh, p1())));
+  const TriangleMesh subdomain = subdomain_of(mesh, strip_partition(mesh, ranks()), rank());
+  const Space space(subdomain, p1());
+  int converged = 0;
+  for (const TaoMethod method : {TaoMethod::bnls, TaoMethod::bntr}) {
+    const DistributedProblem summed(question, space, PenaltyChoice::none);
+    State state = zero_state(summed);
+    const PetscEnd end = tao(summed, state, method, false);
+    if (!end.converged) continue;
+    ++converged;
+    EXPECT_NEAR(largest(state.u.maxCoeff()), serial.u.maxCoeff(), 1e-3 * serial.u.maxCoeff())
+        << end.reason;
+  }
+  EXPECT_GE(converged, 1);
 }
 
 TEST(ContactSets, BetweenTwoPointsInContactIsContact) {

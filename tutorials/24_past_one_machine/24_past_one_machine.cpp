@@ -79,6 +79,11 @@
 // compares residuals. The rows of the summed matrix are of size $ε^{-2}$, and so is the
 // round-off in its residual: below ε = 1e-4 there is nothing left to compare. In the split
 // form it solves for $du$ alone, with full steps, and ends with our $u$.
+//
+// **TAO**, PETSc's optimisers, take the energy and its gradient. `bntr` is Newton's method
+// for bounds in a trust region. It compares values of the energy from step to step, where
+// SNESVI compares residuals, and the digits of the energy are lost in the same sum. The
+// runs below print why it stops; no claim is made about it.
 
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
@@ -149,11 +154,15 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
   const Table without = on_ranks({"multigrid", 1, 32, epsilon}),
               split = on_ranks({"SNESVI, split", 1, 32, 1e-6}),
               coarse = on_ranks({"SNESVI, summed", 1, 32, 1e-2}),
-              summed = on_ranks({"SNESVI, summed", 1, 32, 1e-6});
+              summed = on_ranks({"SNESVI, summed", 1, 32, 1e-6}),
+              tao_coarse = on_ranks({"TAO bntr, summed", 1, 32, 1e-2}),
+              tao_summed = on_ranks({"TAO bntr, summed", 1, 32, 1e-6}),
+              tao_split = on_ranks({"TAO bntr, split", 1, 32, 1e-6});
   const Solution u = serial(structured_mesh(options.cells), p1(), epsilon);
   tutorial::write_scaling(options.out, strong, weak, cut);
   report.finish();
-  for (const Table& runs : {strong, weak, cut, without, split, coarse, summed})
+  for (const Table& runs : {strong, weak, cut, without, split, coarse, summed, tao_coarse,
+                            tao_summed, tao_split})
     tutorial::print_runs(runs);
 
   report.claim_within(std::abs(strong.max("u_max") / u.u.maxCoeff() - 1), 0, 1e-9,
@@ -195,7 +204,8 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 
 int main(int argc, char** argv) {
   const auto any = [](const Asked& ask) {
-    return ask.what.starts_with("SNESVI") ? tutorial::by_snesvi(ask) : on_each_rank(ask);
+    const bool of_petsc = ask.what.starts_with("SNESVI") || ask.what.starts_with("TAO");
+    return of_petsc ? tutorial::by_petsc(ask) : on_each_rank(ask);
   };
   if (const auto status = tutorial::answer_as_rank(argc, argv, any)) return *status;
   return tutorial::run(

@@ -11,6 +11,7 @@
 #include "antilock/distributed/partition.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/distributed/snesvi.hpp"
+#include "antilock/distributed/tao.hpp"
 #include "antilock/form/edge_forms.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -87,19 +88,22 @@ Table on_ranks(const std::string& what, const std::vector<int>& ranks,
   return runs;
 }
 
-Ended by_snesvi(const Asked& asked) {
+Ended by_petsc(const Asked& asked) {
   const TriangleMesh mesh = structured_mesh(asked.cells);
   const Space space(
       distributed::subdomain_of(mesh, distributed::strip_partition(mesh, asked.ranks),
                                 distributed::rank()),
       p1());
-  const bool summed = asked.what == "SNESVI, summed";
+  const bool summed = asked.what.ends_with(", summed");
   const distributed::DistributedProblem problem(
       paper_scene(asked.epsilon), space,
       summed ? distributed::PenaltyChoice::none
              : distributed::PenaltyChoice::serial_default);
   distributed::State state = distributed::zero_state(problem);
-  const distributed::SnesviEnd end = distributed::snesvi(problem, state, !summed);
+  const distributed::PetscEnd end =
+      asked.what.starts_with("SNESVI")
+          ? distributed::snesvi(problem, state, !summed)
+          : distributed::tao(problem, state, distributed::TaoMethod::bntr, !summed);
   return {problem.rows().total(),
           end.corrections,
           end.linear,

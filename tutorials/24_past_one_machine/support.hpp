@@ -42,9 +42,9 @@ Table on_ranks(const Asked& asked);
 Table on_ranks(const std::string& what, const std::vector<int>& ranks,
                const std::function<int(int ranks)>& cells, double epsilon);
 
-/// SNESVI, out of the box on the summed matrix where `what` is "SNESVI, summed", else in
-/// the split form.
-Ended by_snesvi(const Asked& asked);
+/// A solver of PETSc: SNESVI where `what` begins so, else TAO. It runs out of the box on the
+/// summed matrix where `what` ends with ", summed", else in the split form.
+Ended by_petsc(const Asked& asked);
 /// The serial library's answer on a whole mesh.
 Solution serial(const TriangleMesh& mesh, const Element& element, double epsilon);
 
