@@ -9,9 +9,11 @@
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/io/write_freefem_mesh.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/models/project_strain.hpp"
@@ -360,6 +362,71 @@ Numbers interior_penalty(int cells, double epsilon, const std::filesystem::path&
                                values(t, column), other(t), largest});
       ++column;
     }
+  }
+  return numbers;
+}
+
+namespace {
+
+/// The columns u, sx, sy, sxx, sxy, syx, syy of stress.csv for hybrid_bdm1 (T x 7).
+Eigen::MatrixXd means_and_stresses(const Space& space, const Solution& solution) {
+  const TriangleMesh& mesh = space.mesh();
+  Eigen::MatrixXd values(mesh.triangle_count(), 7);
+  Eigen::Index row = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::Matrix<double, 3, 2> slopes = barycentric_gradients(mesh, t);
+    const Eigen::VectorXd u = solution.u(space.cell_dofs().row(t));
+    Eigen::Matrix<double, 3, 2> corners;  // the stress at the corners
+    for (int i = 0; i < 3; ++i)
+      corners.row(i) =
+          u.transpose() * space.element().derivative(Eigen::Vector3d::Unit(i)) * slopes;
+    if (mesh.region[t] == Region::layer) {  // p is affine, known at the midpoints of the edges
+      const Eigen::Vector3d p = solution.p.segment<3>(row);
+      row += 3;
+      corners.col(1) = Eigen::Vector3d::Constant(p.sum()) - 2 * p;
+    }
+    values(t, 0) = u(6);
+    values.row(t).segment<2>(1) = corners.colwise().mean();
+    values.row(t).segment<2>(3) = corners.col(0).transpose() * slopes;
+    values.row(t).segment<2>(5) = corners.col(1).transpose() * slopes;
+  }
+  return values;
+}
+
+}  // namespace
+
+Numbers mixed_bdm1(int cells, double epsilon, const std::filesystem::path& folder) {
+  const Space space(unstructured_mesh(cells), hybrid_bdm1());
+  const TriangleMesh& mesh = space.mesh();
+  const auto file = folder / "mesh.freefem.msh";
+  write_freefem_mesh(file, mesh);
+  run("38_order_two", {"-mesh", file, "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+  const ScriptTable summary = read_table(folder / "summary.csv", 1);
+  if (summary.rows.rows() != 1)
+    throw Error(fmt::format("summary.csv: {} rows; accepted 1", summary.rows.rows()));
+  VariationalInequality problem =
+      antilock::assemble(Scene({paper_load}, StiffLayer{epsilon}), space);
+  problem.load = mean_load_vector(space, paper_load, Region::body, radon_rule());  // qf5pT
+  const Solution ours = active_set(problem);
+  Numbers numbers;
+  numbers.took("mixed");
+  numbers.solved(space, ours);
+  numbers.freefem_seconds += summary.column("seconds")(0);
+  const Eigen::MatrixXd values = means_and_stresses(space, ours);
+  const ScriptTable theirs = read_table(folder / "stress.csv");
+  Points centroids(mesh.triangle_count(), 2), places(theirs.rows.rows(), 2);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    centroids.row(t) = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3));
+  places << theirs.column("x"), theirs.column("y");
+  const std::vector<int> order = match(centroids, places);
+  Eigen::Index column = 0;
+  for (const char* what : {"u", "sx", "sy", "sxx", "sxy", "syx", "syy"}) {
+    const Eigen::VectorXd other = theirs.column(what)(order);
+    const double largest = values.col(column).cwiseAbs().maxCoeff();
+    for (int t = 0; t < mesh.triangle_count(); ++t)
+      numbers.all.push_back(
+          {fmt::format("{} on triangle {}", what, t), values(t, column), other(t), largest});
+    ++column;
   }
   return numbers;
 }

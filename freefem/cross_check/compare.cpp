@@ -370,6 +370,11 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
                   "contact force",
                   half),
       freefem::interior_penalty(half, 1e-2, folder));
+  add("38_order_two",
+      fmt::format("BDM1 unstructured, h = 1/{}, epsilon = 0, no obstacle: means of u, stresses "
+                  "and their derivatives",
+                  half),
+      freefem::mixed_bdm1(half, 0, folder));
   return lines;
 }
 

@@ -90,5 +90,9 @@ Numbers proximal_steps(int cells, const std::filesystem::path& folder);
 /// derivatives at every centroid, relative to their largest value; largest u on Gamma_C, contact
 /// force.
 Numbers interior_penalty(int cells, double epsilon, const std::filesystem::path& folder);
+/// 38: the hybrid form of BDM1 on an unstructured mesh without an obstacle, the load on the means:
+/// the mean of u, the stress at the centroid and its derivatives on every triangle, relative to
+/// their largest value.
+Numbers mixed_bdm1(int cells, double epsilon, const std::filesystem::path& folder);
 
 }  // namespace antilock::freefem

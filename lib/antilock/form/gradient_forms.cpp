@@ -135,13 +135,13 @@ const Quadrature& load_rule(const Element& element) {
   return triangle_rule(std::max(5, 2 * element.degree()));
 }
 
-Eigen::VectorXd mean_load_vector(const Space& space, const Field& f, Region region) {
+Eigen::VectorXd mean_load_vector(const Space& space, const Field& f, Region region,
+                                 const Quadrature& rule) {
   const Element& element = space.element();
   if (element.nodal() || element.dofs_per_cell() != 1)
     throw Error("load on the means: element " + element.name() +
                 " has no mean per triangle; accepted: BDM1-hybrid (hybrid_bdm1)");
   const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = triangle_rule(8);
   const int mean = element.dofs() - 1;  // the unknown of the triangle is the last one
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size());
   for (int t = 0; t < mesh.triangle_count(); ++t) {

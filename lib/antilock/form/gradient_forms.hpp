@@ -47,11 +47,11 @@ const Quadrature& strain_quadrature(const Element& element);
 Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region = Region::body);
 
 /// Returns the load that works on the means alone (N): v -> sum_T v_T int_T f, with v_T the mean of
-/// v over T and int_T f by a rule of degree 8. It is for hybrid_bdm1. With this load the flux of
-/// the solution is in equilibrium with the mean of f on each triangle
-/// (tutorials/guides/order_two.md). Throws Error for an element without that unknown, and where f
-/// is not finite.
-Eigen::VectorXd mean_load_vector(const Space& space, const Field& f, Region region = Region::body);
+/// v over T and int_T f by `rule`. It is for hybrid_bdm1. With this load the flux of the solution
+/// is in equilibrium with the mean of f on each triangle (tutorials/guides/order_two.md). Throws
+/// Error for an element without that unknown, and where f is not finite.
+Eigen::VectorXd mean_load_vector(const Space& space, const Field& f, Region region = Region::body,
+                                 const Quadrature& rule = triangle_rule(8));
 
 /// Returns a rule of degree 5, or of degree 2 k for an element of degree k > 2, so that the
 /// quadrature error is smaller than the error of the element.
