@@ -60,6 +60,10 @@ back to old kernels, the program starts again with wider ones, and with memory i
 who asks; ANTILOCK_KEEP_KERNELS=1 leaves both);
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
 motion that is lost at least (proved; null where nothing is proved), kept is 1 - lost_energy;
+contact_force, with contact, is what the obstacles push: normal (upwards), tangential (to the right; null without friction) and
+moment (anticlockwise, about x = 0), in the unit of f times length^2 and length^3. contact has the range of x from ... to of the unknowns in
+contact, and from_within and to_within: the interval between the end of that range and the next unknown;
+compliance is {value, lower, upper}: the work L(u) of the loads, with an accuracy and where gap and displacements are 0 its proved bounds;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
 polygon of the last mesh, with load, traction and gap as sampled; warning says what to
 distrust: a layer that locks, a solution with a larger error than promised, a load of the body or
@@ -166,6 +170,7 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   write_scene_results(asked.out, file, found.result, summary,
                       found.history.empty() ? nullptr : &found, asked.files);
   report.finish();
+  fmt::print("{}", force_table(file, summary, found.history.empty() ? nullptr : &found));
   if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
   const std::string name = (asked.out / "solution").string();
   const char* const kind = std::visit(

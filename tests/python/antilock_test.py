@@ -55,6 +55,15 @@ def test_run_is_run_scene(tmp_path):
     assert abs(arrays["u"] - table[:, 2]).max() <= 1e-9 * abs(table[:, 2]).max()
     assert summary["contact"]["active"] == np.count_nonzero(arrays["contact"][:, 2] > 0)
     assert summary["locking"]["diagnosis"] and summary["warning"] == ""
+    # CR: one bound per edge of length 1/16
+    x, _, pressure = arrays["contact"].T
+    force = summary["contact_force"]
+    assert force["normal"] == pytest.approx(pressure.sum() / 16)
+    assert force["moment"] == pytest.approx(x @ pressure / 16)
+    begin, end = summary["contact"]["from_within"], summary["contact"]["to_within"]
+    assert begin[0] < begin[1] == summary["contact"]["from"] and end[0] == summary["contact"]["to"]
+    # the gap is 0: L(u) = a(u, u) = -2 J(u)
+    assert summary["compliance"]["value"] == pytest.approx(-2 * summary["energy"])
 
 
 def test_solve_of_the_matrices_is_run():

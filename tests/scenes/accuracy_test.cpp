@@ -38,6 +38,9 @@ TEST(Accuracy, OfASceneIsProvedInItsSummary) {
       const double exact = ExactSolution(paper_sine_load(), epsilon, true, 14).energy();
       EXPECT_LE(proof["energy_lower"], exact);
       EXPECT_GE(proof["energy_upper"], exact);
+      // the gap is 0: L(u) = -2 J(u)
+      EXPECT_LE(summary["compliance"]["lower"], -2 * exact);
+      EXPECT_GE(summary["compliance"]["upper"], -2 * exact);
       ASSERT_FALSE(proof["levels"].empty());
       const auto& last = proof["levels"].back();
       EXPECT_EQ(last["unknowns"], summary["dofs"]);
@@ -50,6 +53,17 @@ TEST(Accuracy, OfASceneIsProvedInItsSummary) {
       EXPECT_EQ(read_csv(run.results / "solution.csv").rows.rows(), mesh.edge_count());
       EXPECT_NEAR(summary["h"], mesh.diameter(), 1e-12);
     }
+}
+
+// With a gap K is no cone, and L(u) is not -2 J(u).
+TEST(Accuracy, ProvesNoComplianceBesideAGap) {
+  const SceneRun run(
+      "[load]\nf = \"-10\"\n[contact]\ngap = \"0.1\"\n[mesh]\nkind = \"structured\"\n"
+      "cells = 8\n[method]\naccuracy = 0.1\n");
+  const auto summary = run.summary();
+  EXPECT_GT(summary["contact"]["active"].get<int>(), 0);
+  EXPECT_TRUE(summary["compliance"]["lower"].is_null());
+  EXPECT_TRUE(summary["compliance"]["upper"].is_null());
 }
 
 TEST(Accuracy, GoesWithABodyFromAFile) {

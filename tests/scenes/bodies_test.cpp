@@ -139,6 +139,41 @@ TEST(Bodies, HoldPullAndSpringOnTheEdgesOfAGroup) {
     }
 }
 
+// u = (0.1 + 0.1 x)(1 - y) is harmonic, and its traction on the sides is -0.1 (1 - y) and 0.1 (1 -
+// y). The obstacle holds it up with the pressure -u_y = 0.1 + 0.1 x: force 0.15, moment 1/20 + 1/30.
+// It is in the space from P2 on, where lambda_i = int p phi_i.
+TEST(Bodies, KnowForceAndMomentOfTheObstacleBelow) {
+  for (const std::string element : {"P2", "P3"}) {
+    const TemporaryFolder folder;
+    const SceneRun run(scene_on(
+        named_square(folder, 4),
+        "[contact]\ngap = \"-0.1 - 0.1*x\"\n" + edge("left", "traction = \"-0.1*(1 - y)\"") +
+            edge("right", "traction = \"0.1*(1 - y)\"") + edge("top", "displacement = \"0\""),
+        element));
+    const auto s = run.summary();
+    // the tolerance of the solve is 1e-10
+    EXPECT_NEAR(s["contact_force"]["normal"].get<double>(), 0.15, 1e-9) << element;
+    EXPECT_NEAR(s["contact_force"]["moment"].get<double>(), 1.0 / 20 + 1.0 / 30, 1e-9) << element;
+    EXPECT_EQ(s["contact"]["from_within"], (nlohmann::json{0.0, 0.0})) << element;
+    EXPECT_EQ(s["contact"]["to_within"], (nlohmann::json{1.0, 1.0})) << element;
+  }
+}
+
+// u = -0.1 (1 - y): the obstacle above presses down with the force 0.1.
+TEST(Bodies, KnowTheSignOfTheForceOfACeiling) {
+  for (const std::string element : {"P1", "CR"}) {
+    const TemporaryFolder folder;
+    const SceneRun run(scene_on(named_square(folder, 4),
+                                "[contact]\ngap = \"1\"\nceiling = \"-0.1\"\n" +
+                                    edge("left", "free = true") + edge("right", "free = true") +
+                                    edge("top", "displacement = \"0\""),
+                                element));
+    const auto s = run.summary();
+    EXPECT_NEAR(s["contact_force"]["normal"].get<double>(), -0.1, 1e-9) << element;
+    EXPECT_NEAR(s["contact_force"]["moment"].get<double>(), -0.05, 1e-9) << element;
+  }
+}
+
 // u_x is 1 in a half of stiffness 1 and 0.1 in one of 10 under the traction 1, by a formula or per
 // group.
 TEST(Bodies, AreAsStiffAsTheirPartsAre) {

@@ -55,11 +55,13 @@ void expect_interface(const std::filesystem::path& results) {
   const bool has_contact = std::count(effects.begin(), effects.end(), "contact") == 1;
   EXPECT_EQ(effects.size(), static_cast<std::size_t>(has_layer + has_contact));
   Keys top = {"element", "solver", "epsilon",    "h",    "dofs",    "effects", "energy", "u_max",
-              "u_min",   "kkt",    "iterations", "blas", "seconds", "warning", "scene"};
+              "u_min",   "kkt",    "iterations", "blas", "seconds", "warning", "scene",
+              "compliance"};
   Keys written = {"summary.json", "solution.csv", "mesh.msh", "solution.vtu"};
   if (has_layer) top.insert("locking");
   if (has_contact) {
     top.insert("contact");
+    top.insert("contact_force");
     written.insert("contact.csv");
   }
   if (s["scene"]["method"].contains("accuracy")) top.insert("certificate");
@@ -130,14 +132,18 @@ void expect_interface(const std::filesystem::path& results) {
             !vector && !asked.is_null() && asked["model"] == "scaled");
   EXPECT_EQ(vtu.find("Name=\"pressure\"") != vtu.npos, has_contact);
 
+  EXPECT_EQ(keys(s["compliance"]), (Keys{"value", "lower", "upper"}));
   if (!has_contact) {
     EXPECT_EQ(s["iterations"]["contact"].get<int>(), 0);
     return;
   }
-  EXPECT_EQ(keys(s["contact"]), (Keys{"points", "active", "from", "to"}));
+  EXPECT_EQ(keys(s["contact"]),
+            (Keys{"points", "active", "from", "to", "from_within", "to_within"}));
+  EXPECT_EQ(keys(s["contact_force"]), (Keys{"normal", "tangential", "moment", "unit"}));
   const Csv table = read_csv(results / "contact.csv");
   const bool rubs = s["scene"].value("model", nlohmann::json::object()).contains("friction");
   EXPECT_EQ(table.header, rubs ? "x,gap,pressure,friction" : "x,gap,pressure");
+  EXPECT_EQ(s["contact_force"]["tangential"].is_null(), !rubs);
   const auto points_on = static_cast<Eigen::Index>(space.contact_dofs().size());
   ASSERT_EQ(table.rows.rows(), points_on);
   EXPECT_EQ(s["contact"]["points"].get<Eigen::Index>(), points_on);
@@ -149,6 +155,12 @@ void expect_interface(const std::filesystem::path& results) {
   EXPECT_LE(pressed, active);
   EXPECT_EQ(s["contact"]["from"].is_null(), active == 0);
   EXPECT_EQ(s["contact"]["to"].is_null(), active == 0);
+  if (active > 0) {  // the ends are ends of their intervals
+    EXPECT_EQ(s["contact"]["from_within"][1], s["contact"]["from"]);
+    EXPECT_EQ(s["contact"]["to_within"][0], s["contact"]["to"]);
+    EXPECT_LE(s["contact"]["from_within"][0], s["contact"]["from"]);
+    EXPECT_GE(s["contact"]["to_within"][1], s["contact"]["to"]);
+  }
 }
 
 class ExampleScenes : public testing::TestWithParam<std::string> {};
@@ -221,6 +233,32 @@ TEST(Results, OfAnElementWithMeansHaveValuesAndMeans) {
   const Csv contact = read_csv(run.results / "contact.csv");
   EXPECT_EQ(contact.rows.rows(), 16);
   EXPECT_GE(contact.rows.col(2).minCoeff(), 0);
+}
+
+// The resultant is that of the rows of contact.csv: for CR each has the pressure of its edge.
+TEST(Results, AddUpTheContactForce) {
+  const SceneRun run(scene(layer("1e-3") + contact, structured(16), cr));
+  const auto summary = run.summary();
+  const Csv table = read_csv(run.results / "contact.csv");
+  const Eigen::VectorXd force = table.rows.col(2) / 16;
+  const auto& found = summary["contact_force"];
+  const double size = force.sum();
+  EXPECT_GT(size, 0);
+  // pressures below 0 by round-off are 0 in the table: up to 1e-9 of the largest, KKT's tolerance
+  EXPECT_NEAR(found["normal"].get<double>(), size, 1e-8 * size);
+  EXPECT_NEAR(found["moment"].get<double>(), force.dot(table.rows.col(0)), 1e-8 * size);
+  EXPECT_NE(run.outcome.out.find("contact force, upwards"), std::string::npos);
+  EXPECT_NE(run.outcome.out.find("compliance L(u)"), std::string::npos);
+}
+
+// K is a cone: a(u, u) = L(u) for the discrete solution, too.
+TEST(Results, GiveTheComplianceOfALoad) {
+  const SceneRun run(scene(layer("1e-3") + contact, unstructured(8), cr));
+  const auto summary = run.summary();
+  const double energy = summary["energy"];
+  // the solve is exact to its tolerance, 1e-10
+  EXPECT_NEAR(summary["compliance"]["value"].get<double>(), -2 * energy, 1e-8 * std::abs(energy));
+  EXPECT_TRUE(summary["compliance"]["lower"].is_null());
 }
 
 TEST(Results, NameTheWholeQuestion) {

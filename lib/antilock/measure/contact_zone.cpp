@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "antilock/core/error.hpp"
@@ -32,17 +33,50 @@ void require_space_of_bounds(const Result& result, const std::string& who) {
 ContactZone contact_zone(const Result& result) {
   if (result.problem.bounds.count() == 0) return {};
   require_space_of_bounds(result, "contact zone");
-  const std::vector<int>& places = result.space.contact_dofs();
+  const Space& space = result.space;
+  const Eigen::VectorXd x = space.dof_coordinates().col(0)(space.contact_dofs());
+  return contact_zone(x, result.solution.active, contact_ends(space.mesh()));
+}
+
+ContactZone contact_zone(const Eigen::VectorXd& x, const std::vector<bool>& active,
+                         const std::pair<double, double>& ends) {
   ContactZone zone;
-  zone.points = static_cast<int>(result.problem.bounds.unknowns.size());
+  zone.points = static_cast<int>(x.size());
   for (int i = 0; i < zone.points; ++i) {
-    if (!result.solution.active[i]) continue;
-    const double x = result.space.dof_coordinates()(places[i], 0);
+    if (!active[i]) continue;
     ++zone.active;
-    zone.from = std::min(zone.from.value_or(x), x);
-    zone.to = std::max(zone.to.value_or(x), x);
+    if (!zone.from) {
+      zone.from = x(i);
+      zone.from_within = std::pair(i > 0 ? x(i - 1) : ends.first, x(i));
+    }
+    zone.to = x(i);
+    zone.to_within = std::pair(x(i), i + 1 < zone.points ? x(i + 1) : ends.second);
   }
   return zone;
+}
+
+std::pair<double, double> contact_ends(const TriangleMesh& mesh) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::pair<double, double> ends{infinity, -infinity};
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    for (const int v : mesh.edges.row(e)) {
+      ends.first = std::min(ends.first, mesh.vertices(v, 0));
+      ends.second = std::max(ends.second, mesh.vertices(v, 0));
+    }
+  }
+  return ends;
+}
+
+ContactForce contact_force(const Result& result) {
+  if (result.problem.bounds.count() == 0) return {};
+  require_space_of_bounds(result, "contact force");
+  const Space& space = result.space;
+  const Eigen::VectorXd x = space.dof_coordinates().col(0)(space.contact_dofs());
+  ContactForce force;
+  force.normal = result.solution.lambda.sum();
+  force.moment = result.solution.lambda.dot(x);
+  return force;
 }
 
 Eigen::VectorXd contact_lengths(const Space& space) {

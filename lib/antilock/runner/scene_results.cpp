@@ -23,7 +23,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+using Interval = std::optional<std::pair<double, double>>;
+
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+Json or_null(const Interval& interval) {
+  return interval ? Json::array({interval->first, interval->second}) : Json(nullptr);
+}
 
 /// JSON has no infinity: a library would write null and say nothing.
 double finite(const char* what, double value) {
@@ -94,6 +99,37 @@ Json certificate(const MethodRequest& method, const CertifiedSolution& certified
           {"levels", levels}};
 }
 
+/// Normal and tangential force, and the moment.
+Json contact_force_of(const ContactForce& force) {
+  return {{"normal", finite("the contact force", force.normal)},
+          {"tangential", or_null(force.tangential)},
+          {"moment", finite("the moment of the contact force", force.moment)},
+          {"unit", "that of f times length^2; of the moment times length^3"}};
+}
+
+/// L(u_h), and the interval in which L(u) is proved to lie.
+Json compliance_of(const SceneSummary& summary, const CertifiedSolution* certified) {
+  Json compliance = {{"value", finite("the compliance", summary.compliance)},
+                     {"lower", nullptr},
+                     {"upper", nullptr}};
+  const Interval proved = certified != nullptr ? proved_compliance(*certified) : Interval();
+  if (proved) {
+    compliance["lower"] = proved->first;
+    compliance["upper"] = proved->second;
+  }
+  return compliance;
+}
+
+/// A line of force_table.
+std::string table_line(const std::string& name, double value, const std::string& interval,
+                       const std::string& unit) {
+  return fmt::format("  {:<22} {:>12.6g}  {:<32} {}\n", name, value, interval, unit);
+}
+
+std::string text_of(const Interval& interval) {
+  return interval ? fmt::format("{:.6g} to {:.6g}", interval->first, interval->second) : "";
+}
+
 /// x, gap and pressure, with the tangential force per length behind them where there is friction.
 void write_contact(const std::filesystem::path& path, const Eigen::MatrixX3d& table,
                    const std::optional<Eigen::VectorXd>& friction) {
@@ -117,7 +153,15 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
   const Eigen::VectorXd values = values_at_dofs(result.space, solution.u);
   s.u_max = values.maxCoeff();
   s.u_min = values.minCoeff();
-  if (file.scene.contact()) s.zone = contact_zone(normal_contact(result));
+  s.compliance = result.problem.load.dot(solution.u);
+  if (file.scene.contact()) {
+    const Result normal = normal_contact(result);
+    s.zone = contact_zone(normal);
+    s.force = contact_force(normal);
+    const auto friction =
+        std::visit([&](const auto& model) { return model.friction_forces(result); }, file.model);
+    if (friction) s.force.tangential = friction->dot(contact_lengths(result.space));
+  }
   const Eigen::Index size = result.space.size(), components = solution.u.size() / size;
   s.at.resize(static_cast<Eigen::Index>(file.at.size()), 2 + components);
   if (s.at.rows() > 0) {
@@ -142,6 +186,39 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
   return s;
 }
 
+std::optional<std::pair<double, double>> proved_compliance(const CertifiedSolution& certified) {
+  const VariationalInequality& problem = certified.result.problem;
+  const bool is_cone = (problem.bounds.lower.array() == 0).all();
+  if (!is_cone || (problem.dirichlet_values.array() != 0).any()) return {};
+  const Certificate& proof = certified.certificate;
+  // -2 * 0 would be -0
+  return std::pair(0.0 - 2 * proof.energy_upper, 0.0 - 2 * proof.energy_lower);
+}
+
+std::string force_table(const SceneFile& file, const SceneSummary& summary,
+                        const CertifiedSolution* certified) {
+  const std::string force_unit = "that of f times length^2";
+  const std::string moment_unit = "that of f times length^3";
+  std::string table = fmt::format("  {:<22} {:>12}  {:<32} {}\n", "", "value", "interval", "unit");
+  if (file.scene.contact()) {
+    const ContactForce& force = summary.force;
+    table += table_line("contact force, upwards", force.normal, "", force_unit);
+    if (force.tangential)
+      table += table_line("friction, to the right", *force.tangential, "", force_unit);
+    table += table_line("moment, anticlockwise", force.moment, "", moment_unit);
+    const ContactZone& zone = summary.zone;
+    if (zone.from && zone.to) {
+      table += table_line("contact begins at", *zone.from, text_of(zone.from_within), "length");
+      table += table_line("contact ends at", *zone.to, text_of(zone.to_within), "length");
+    }
+  }
+  const Interval proved = certified != nullptr ? proved_compliance(*certified) : Interval();
+  const std::string interval = text_of(proved) + (proved ? " (proved)" : "");
+  table += table_line("compliance L(u)", summary.compliance, interval,
+                      "that of f u times length^2");
+  return table;
+}
+
 std::string summary_text(const SceneFile& file, const SceneSummary& summary,
                          const RunSeconds& seconds, double files,
                          const CertifiedSolution* certified) {
@@ -153,6 +230,7 @@ std::string summary_text(const SceneFile& file, const SceneSummary& summary,
   s["dofs"] = summary.unknowns;
   s["effects"] = file.scene.effects();
   s["energy"] = finite("the energy", summary.energy);
+  s["compliance"] = compliance_of(summary, certified);
   s["u_max"] = finite("the maximum", summary.u_max);
   s["u_min"] = finite("the minimum", summary.u_min);
   if (file.scene.contact()) {
@@ -160,7 +238,10 @@ std::string summary_text(const SceneFile& file, const SceneSummary& summary,
     s["contact"] = {{"points", zone.points},
                     {"active", zone.active},
                     {"from", or_null(zone.from)},
-                    {"to", or_null(zone.to)}};
+                    {"to", or_null(zone.to)},
+                    {"from_within", or_null(zone.from_within)},
+                    {"to_within", or_null(zone.to_within)}};
+    s["contact_force"] = contact_force_of(summary.force);
     s["kkt"] = {{"min_gap", summary.kkt.min_gap},
                 {"min_pressure", summary.kkt.min_pressure},
                 {"complementarity", summary.kkt.complementarity},

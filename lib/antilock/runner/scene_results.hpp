@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "antilock/adapt/solve_to.hpp"
@@ -28,7 +29,9 @@ struct SceneSummary {
   double h = 0;  ///< mesh_width, or the same over all ranks
   std::int64_t unknowns = 0;
   double energy = 0, u_max = 0, u_min = 0;
-  ContactZone zone;  ///< used only for a scene with contact
+  double compliance = 0;  ///< L(u), the work of the loads on u
+  ContactZone zone;       ///< used only for a scene with contact
+  ContactForce force;     ///< used only for a scene with contact
   Kkt kkt;
   int contact_steps = 0, corrections = 0;
   std::optional<LockingReport> layer;
@@ -44,6 +47,18 @@ struct SceneSummary {
 };
 /// Returns the summary of a result. Throws Error for a point of [at] outside the mesh.
 SceneSummary summary_of(const SceneFile& file, const Result& result);
+
+/// Returns the interval in which the certificate proves the compliance L(u) of the exact solution
+/// to lie. Where gap and prescribed displacements are 0, K is a cone with the vertex 0: v = 0 and
+/// v = 2 u in the inequality give a(u, u) = L(u). So L(u) = -2 J(u), and the interval is that of
+/// the energy times -2. The result is empty where the gap or a displacement is not 0 at an unknown.
+std::optional<std::pair<double, double>> proved_compliance(const CertifiedSolution& certified);
+
+/// Returns a table for the screen, one line per number: contact force and moment, the ends of
+/// contact, and the compliance, each with its interval, if there is one, and its unit. `certified`
+/// is given for a scene with an accuracy.
+std::string force_table(const SceneFile& file, const SceneSummary& summary,
+                        const CertifiedSolution* certified = nullptr);
 
 /// Returns the text of summary.json. Its keys are those of `run_scene --help`, and this function
 /// alone writes them. `certified` is given for a scene with an accuracy, and becomes `certificate`.

@@ -14,6 +14,7 @@
 #include "antilock/form/edge_forms.hpp"
 #include "antilock/io/write_csv.hpp"
 #include "antilock/io/write_vtu.hpp"
+#include "antilock/measure/contact_zone.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/runner/scene_results.hpp"
@@ -99,6 +100,20 @@ void write_pvtu(const fs::path& path, bool contact) {
   });
 }
 
+/// The contact force: a sum over the ranks, each with the rows that it owns.
+ContactForce contact_force_of_all(const NestedLevel& level) {
+  const DofMap& rows = level.problem.rows();
+  const Eigen::VectorXd lambda = contact_forces(level.problem, level.state);
+  ContactForce force;
+  for (int place = 0; place < rows.owned(); ++place) {
+    force.normal += lambda(place);
+    force.moment += lambda(place) * level.space.dof_coordinates()(rows.unknown(place), 0);
+  }
+  force.normal = sum(force.normal);
+  force.moment = sum(force.moment);
+  return force;
+}
+
 /// Every number of the summary that all ranks must form together.
 SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level,
                             const NestedReport& report, int levels,
@@ -112,15 +127,14 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level,
   s.energy = energy_of_all(level);
   s.u_max = largest(level.state.u.maxCoeff());
   s.u_min = -largest(-level.state.u.minCoeff());
+  s.compliance = sum(level.problem.part().load.dot(level.state.u));
   if (file.scene.contact()) {
     const ContactSet set = level.contact_set();
-    s.zone.points = static_cast<int>(set.x.size());
-    for (std::size_t i = 0; i < set.x.size(); ++i) {
-      if (set.active[i] == 0) continue;
-      ++s.zone.active;
-      s.zone.from = s.zone.from.value_or(set.x[i]);
-      s.zone.to = set.x[i];
-    }
+    const auto [left, right] = contact_ends(level.space.mesh());  // of this rank
+    s.zone = contact_zone(
+        Eigen::Map<const Eigen::VectorXd>(set.x.data(), static_cast<Eigen::Index>(set.x.size())),
+        {set.active.begin(), set.active.end()}, {-largest(-left), largest(right)});
+    s.force = contact_force_of_all(level);
   }
   s.kkt = report.kkt;
   s.contact_steps = report.last.set_changes + 1;

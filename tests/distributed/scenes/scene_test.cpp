@@ -105,6 +105,11 @@ void expect_the_files_of_the_serial_run(const Runs& serial, const Runs& petsc,
     for (const char* key : {"dofs", "contact"}) EXPECT_EQ(ours[key], theirs[key]);
     EXPECT_NEAR(ours["h"].get<double>(), theirs["h"].get<double>(), 1e-12);
     EXPECT_NEAR(ours["energy"].get<double>(), theirs["energy"].get<double>(), 1e-9);
+    EXPECT_NEAR(ours["compliance"]["value"].get<double>(),
+                theirs["compliance"]["value"].get<double>(), 1e-9);
+    for (const char* key : {"normal", "moment"})  // as the pressures
+      EXPECT_NEAR(ours["contact_force"][key].get<double>(),
+                  theirs["contact_force"][key].get<double>(), 1e-6 * contact.col(2).maxCoeff());
     EXPECT_LE(ours["kkt"]["residual"].get<double>(), 1e-9);
     EXPECT_EQ(ours["parallel"]["ranks"], std::max(ranks, 1));
     EXPECT_EQ(ours["parallel"]["levels"], levels);

@@ -133,7 +133,27 @@ TEST(ContactZone, TableAndZoneReportTheContact) {
     EXPECT_GT(active, 0);
     EXPECT_EQ(zone.from, from);
     EXPECT_EQ(zone.to, to);
+    const ContactForce force = contact_force({space, problem, s});
+    EXPECT_NEAR(force.normal, s.lambda.sum(), 1e-14);
+    EXPECT_NEAR(force.moment, s.lambda.dot(table.col(0)), 1e-14);
+    EXPECT_FALSE(force.tangential);
   }
+}
+
+TEST(ContactZone, EndsBetweenNeighbours) {
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(5, 0.125, 0.625);
+  using Interval = std::pair<double, double>;
+  const ContactZone inside = contact_zone(x, {false, true, false, true, false}, {0, 1});
+  EXPECT_EQ(inside.active, 2);
+  EXPECT_EQ(inside.from_within, Interval(x(0), x(1)));
+  EXPECT_EQ(inside.to_within, Interval(x(3), x(4)));
+  const ContactZone all = contact_zone(x, std::vector<bool>(5, true), {0, 1});
+  EXPECT_EQ(all.from_within, Interval(0, x(0)));
+  EXPECT_EQ(all.to_within, Interval(x(4), 1));
+}
+
+TEST(ContactZone, ReachesFromEndToEndOfGammaC) {
+  EXPECT_EQ(contact_ends(structured_mesh(4)), std::pair(0.0, 1.0));
 }
 
 TEST(ContactZone, IsEmptyWhereNothingTouches) {
@@ -142,7 +162,7 @@ TEST(ContactZone, IsEmptyWhereNothingTouches) {
   const ContactZone zone = contact_zone({space, problem, active_set(problem)});
   EXPECT_EQ(zone.points, 3);
   EXPECT_EQ(zone.active, 0);
-  EXPECT_FALSE(zone.from || zone.to);
+  EXPECT_FALSE(zone.from || zone.to || zone.from_within || zone.to_within);
 }
 
 TEST(ExactResidual, IsTheWorkOfTheContactPressureOnConformingSpaces) {
