@@ -27,7 +27,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "figures"))
 from table import TableError, read as read_table  # noqa: E402
 
-EXTRA = ["howto_scene", "howto_matrices", "howto_python", "dataset", "uniform_rate", "order_two", "locking_loss", "errata", "glossary", "notation", "bibliography"]
+EXTRA = ["howto_scene", "howto_matrices", "howto_python", "dataset", "uniform_rate", "order_two", "locking_loss", "verification", "errata", "glossary", "notation", "bibliography"]
 TEACHING = ["teaching", "lab", "problem_sheets", "answer_book", "exam"]
 WIDTH, HEIGHT = 900, 760  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
 

@@ -271,6 +271,26 @@ std::pair<double, double> errors(const PlateElement& method, const TriangleMesh&
   return {std::sqrt(w / w2), std::sqrt(theta / theta2)};
 }
 
+// The deflection in the middle of a clamped square plate under a uniform load, side, load and
+// stiffness 1: 0.001265 for Kirchhoff's plate (S. Timoshenko and S. Woinowsky-Krieger, Theory of
+// Plates and Shells, table 35).
+TEST(Plate, ASquareHasKirchhoffsDeflectionUnlessItLocks) {
+  constexpr double kirchhoff = 0.001265;
+  Plate plate{.thickness = 1e-4, .load = [](double, double) { return -1.0; }};
+  plate.gap = [](double, double) { return infinity; };
+  const TriangleMesh mesh = clamped(structured_mesh(32, Domain{0}));
+  const auto middle = [&](const PlateElement& method) {
+    const On on(method, mesh);
+    const Solution s = active_set(assemble(plate, on.space));
+    for (int i = 0; i < mesh.vertex_count(); ++i)
+      if (mesh.vertices(i, 0) == 0.5 && mesh.vertices(i, 1) == 0.5) return s.u(i);
+    return nan;
+  };
+  // ConvergesLikeHSquaredUniformlyInTheThickness: below 2 % in the mean on such a mesh
+  EXPECT_NEAR(middle(duran_liberman), -kirchhoff, 0.03 * kirchhoff);
+  EXPECT_LT(std::abs(middle(exact_shear)), 0.01 * kirchhoff);
+}
+
 TEST(Plate, ConvergesLikeHSquaredUniformlyInTheThickness) {
   // Arnold and Falk 1989, Duran and Liberman 1992: C h^2 in L2, C without t, on any mesh
   const std::vector<TriangleMesh> meshes{clamped(unstructured_mesh(8, Domain{0})),
