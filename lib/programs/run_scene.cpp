@@ -63,6 +63,7 @@ motion that is lost at least (proved; null where nothing is proved), kept is 1 -
 contact_force, with contact, is what the obstacles push: normal (upwards), tangential (to the right; null without friction) and
 moment (anticlockwise, about x = 0), in the unit of f times length^2 and length^3. contact has the range of x from ... to of the unknowns in
 contact, and from_within and to_within: the interval between the end of that range and the next unknown;
+coulomb, with that key, has the steps of the fixed point and the contraction of the last one; where it does not contract: status 3;
 compliance is {value, lower, upper}: the work L(u) of the loads, with an accuracy and where gap and displacements are 0 its proved bounds;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
 polygon of the last mesh, with load, traction and gap as sampled; warning says what to

@@ -67,6 +67,7 @@ void expect_interface(const std::filesystem::path& results) {
   if (s["scene"]["method"].contains("accuracy")) top.insert("certificate");
   if (s["scene"].contains("at")) top.insert("at");
   const bool vector = s["scene"].contains("model");  // plane strain: two components
+  if (vector && s["scene"]["model"].contains("coulomb")) top.insert("coulomb");
   EXPECT_EQ(keys(s), top);
   EXPECT_EQ(files(results), written);
   EXPECT_EQ(s["epsilon"].is_null(), !has_layer);
@@ -141,7 +142,8 @@ void expect_interface(const std::filesystem::path& results) {
             (Keys{"points", "active", "from", "to", "from_within", "to_within"}));
   EXPECT_EQ(keys(s["contact_force"]), (Keys{"normal", "tangential", "moment", "unit"}));
   const Csv table = read_csv(results / "contact.csv");
-  const bool rubs = s["scene"].value("model", nlohmann::json::object()).contains("friction");
+  const auto model = s["scene"].value("model", nlohmann::json::object());
+  const bool rubs = model.contains("friction") || model.contains("coulomb");
   EXPECT_EQ(table.header, rubs ? "x,gap,pressure,friction" : "x,gap,pressure");
   EXPECT_EQ(s["contact_force"]["tangential"].is_null(), !rubs);
   const auto points_on = static_cast<Eigen::Index>(space.contact_dofs().size());

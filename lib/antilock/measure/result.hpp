@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "antilock/problem/variational_inequality.hpp"
+#include "antilock/solve/coulomb_friction.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/space/space.hpp"
 
@@ -50,6 +51,8 @@ struct Result {
   std::string warning = {};
   /// Set by `solve` (analysis/solve.hpp) for a scene with a layer.
   std::optional<LockingReport> locking = {};
+  /// Set for a model with Coulomb's friction.
+  std::optional<FixedPointReport> coulomb = {};
 };
 
 /// Returns a result in the form that the analysis studies: rows of B with a positive fixed

@@ -390,10 +390,21 @@ void read_loading(const Section& section, const std::optional<UnilateralContact>
   if (contact) block.gap = contact->gap;  // else refused by check_model
 }
 
+/// Coulomb's coefficient; 0 without the key. With it the bounds of u_x begin with the limit 0.
+double read_coulomb(const Section& section, BlockLoading& block) {
+  if (!section.has("coulomb")) return 0;
+  const double coefficient = section.number("coulomb");
+  if (section.has("friction"))
+    section.refuse("coulomb", "stands beside friction; accepted: one of the two");
+  block.friction = [](double) { return 0.0; };
+  return coefficient;
+}
+
 RubberModel read_rubber(const Section& section, const std::optional<UnilateralContact>& contact) {
   section.only_its_keys("rubber");
   RubberModel rubber;
   read_loading(section, contact, rubber.block);
+  rubber.coulomb = read_coulomb(section, rubber.block);
   rubber.block.epsilon = section.number("epsilon");
   return rubber;
 }
@@ -403,6 +414,7 @@ CoatingModel read_coating(const Section& section, const std::optional<Unilateral
   section.only_its_keys("coating");
   CoatingModel coating;
   read_loading(section, contact, coating.block);
+  coating.coulomb = read_coulomb(section, coating.block);
   const double young = section.number("young");
   const double nu = section.number("poisson");
   const Lame body{young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};

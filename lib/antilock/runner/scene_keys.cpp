@@ -132,12 +132,17 @@ std::vector<SceneKey> point_and_model_keys() {
        .comment = "a block pressed down on the gap: its clamped edges (of the unit square: the top) sink by\n"
                   "push = 0.1, the rest is free, f is upwards. Without a layer: rubber, mu = 1, epsilon = 1/lambda\n"
                   "(default 1e-8; 0: incompressible). With one: a coating of that thickness and of the block's\n"
-                  "material (young = 1, poisson = 0.3) divided by it. friction = \"0.1\": Tresca's bound"},
+                  "material (young = 1, poisson = 0.3) divided by it. friction = \"0.1\": Tresca's bound,\n"
+                  "or coulomb = 0.3: Coulomb's coefficient, by a fixed point of Tresca's problems"},
       {.section = "model", .name = "push", .type = Type::number, .does = "how far the clamped edges sink",
        .otherwise = "0.1", .accepted = "-1e+06 to 1e+06", .range = SceneKey::Range{-1e6, 1e6},
        .models = {"rubber", "coating"}},
       {.section = "model", .name = "friction", .type = Type::formula_x, .does = "Tresca's bound, a force per length",
        .accepted = in_x, .models = {"rubber", "coating"}},
+      {.section = "model", .name = "coulomb", .type = Type::number,
+       .does = "the coefficient of Coulomb's friction: the tangential force is at most coulomb times the pressure",
+       .accepted = "above 0, at most 10", .range = SceneKey::Range{.least = 0, .most = 10, .above = true},
+       .models = {"rubber", "coating"}},
       {.section = "model", .name = "epsilon", .type = Type::number, .does = "1/lambda of the rubber, with mu = 1",
        .otherwise = "1e-8", .accepted = "0 to 1", .range = SceneKey::Range{0, 1}, .models = {"rubber"}},
       {.section = "model", .name = "young", .type = Type::number, .does = "Young's modulus of block and coating",

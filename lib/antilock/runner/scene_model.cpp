@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "antilock/analysis/locking.hpp"
 #include "antilock/form/gradient_forms.hpp"
@@ -14,6 +15,19 @@
 
 namespace antilock {
 namespace {
+
+/// The bounds of the contact unknowns with friction. Behind the bounds of u_y stand those of u_x,
+/// in the same order, except where u_x is prescribed.
+std::vector<FrictionPair> friction_pairs(const VariationalInequality& problem, const Space& space) {
+  const std::vector<int>& contact = space.contact_dofs();
+  const std::vector<int>& bounded = problem.bounds.unknowns;
+  std::vector<FrictionPair> pairs;
+  for (std::size_t i = contact.size(); i < bounded.size(); ++i) {
+    const auto place = std::find(contact.begin(), contact.end(), bounded[i]) - contact.begin();
+    pairs.push_back({static_cast<int>(place), static_cast<int>(i)});
+  }
+  return pairs;
+}
 
 /// T values of the layer stress: the mean over the rows of B that stand for a triangle, 0 on the
 /// body.
@@ -70,15 +84,10 @@ VariationalInequality PressedModel<Block>::problem(const Scene& scene, const Spa
 template <class Block>
 std::optional<Eigen::VectorXd> PressedModel<Block>::friction_forces(const Result& result) const {
   if (!block.friction) return {};
-  const std::vector<int>& contact = result.space.contact_dofs();
   const Eigen::VectorXd length = contact_lengths(result.space);
-  // behind the bounds of u_y stand those of u_x, in the same order, but where u_x is held
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contact.size()));
-  for (std::size_t i = contact.size(); i < result.problem.bounds.unknowns.size(); ++i) {
-    const auto row = std::find(contact.begin(), contact.end(), result.problem.bounds.unknowns[i]) -
-                     contact.begin();
-    forces(row) = result.solution.lambda(static_cast<Eigen::Index>(i)) / length(row);
-  }
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(length.size());
+  for (const auto& [normal, tangential] : friction_pairs(result.problem, result.space))
+    forces(normal) = result.solution.lambda(tangential) / length(normal);
   return forces;
 }
 
@@ -86,7 +95,14 @@ template <class Block>
 Result PressedModel<Block>::solve(const SceneFile& file, const Space& space,
                                   const Solver& solver) const {
   Result result{.space = space, .problem = problem(file.scene, space)};
-  result.solution = solver(result.problem);
+  if (coulomb > 0) {
+    const std::vector<FrictionPair> pairs = friction_pairs(result.problem, space);
+    CoulombSolution found = coulomb_friction(result.problem, pairs, {coulomb}, solver);
+    result.solution = std::move(found.solution);
+    result.coulomb = found.report;
+  } else {
+    result.solution = solver(result.problem);
+  }
   add_locking_report(result, locking_report(file, space));
   return result;
 }

@@ -60,11 +60,14 @@ struct AntiPlaneModel {
 };
 
 /// The model of [model] kind = "plane strain": a block that is pressed down. `block` holds all of
-/// [model], [contact] and [layer].
+/// [model], [contact] and [layer], except for the coefficient of Coulomb's friction.
 template <class Block>
 struct PressedModel {
   static constexpr ModelTraits traits{"plane strain", 2, true, false};
   Block block;
+  /// The coefficient of Coulomb's friction; 0: none. With it the limits `block.friction` are 0, and
+  /// `solve` replaces them (solve/coulomb_friction.hpp).
+  double coulomb = 0;
 
   std::string beyond_the_paper(const Scene&) const { return traits.name; }
   Eigen::VectorXd dirichlet_values(const Scene& scene, const TriangleMesh& mesh) const;

@@ -182,6 +182,7 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
   s.contact_steps = solution.counters.contact_iterations;
   s.corrections = solution.counters.corrections;
   s.layer = result.locking;
+  s.coulomb = result.coulomb;
   s.warning = result.warning;
   return s;
 }
@@ -250,6 +251,9 @@ std::string summary_text(const SceneFile& file, const SceneSummary& summary,
     s["kkt"] = {{"residual", summary.kkt.residual}};
   }
   s["iterations"] = {{"contact", summary.contact_steps}, {"corrections", summary.corrections}};
+  if (summary.coulomb)
+    s["coulomb"] = {{"steps", summary.coulomb->steps},
+                    {"contraction", summary.coulomb->contraction}};
   const Blas used = blas();
   s["blas"] = {{"name", used.name}, {"kernel", used.kernel}, {"threads", used.threads}};
   if (summary.layer) {

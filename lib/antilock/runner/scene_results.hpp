@@ -35,6 +35,7 @@ struct SceneSummary {
   Kkt kkt;
   int contact_steps = 0, corrections = 0;
   std::optional<LockingReport> layer;
+  std::optional<FixedPointReport> coulomb;
   Eigen::MatrixXd at;  ///< a row per point of [at]: x, y, u, in plane strain x, y, u_x, u_y
   std::string warning;
   struct Parallel {
