@@ -60,7 +60,7 @@ back to old kernels, the program starts again with wider ones, and with memory i
 who asks; ANTILOCK_KEEP_KERNELS=1 leaves both);
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
 motion that is lost at least (proved; null where nothing is proved), kept is 1 - lost_energy;
-contact_force, with contact, is what the obstacles push: normal (upwards), tangential (to the right; null without friction) and
+contact_force, with contact, is the resultant of the obstacles' forces on the body: normal (upwards), tangential (to the right; null without friction) and
 moment (anticlockwise, about x = 0), in the unit of f times length^2 and length^3. contact has the range of x from ... to of the unknowns in
 contact, and from_within and to_within: the interval between the end of that range and the next unknown;
 coulomb, with that key, has the steps of the fixed point and the contraction of the last one; where it does not contract: status 3;

@@ -84,6 +84,26 @@ TEST(Verification, HertzContactOfRubberLocksForP1) {
   EXPECT_NE(p1.summary()["warning"].get<std::string>().find("locks"), std::string::npos);
 }
 
+// The numbers and tolerances of tests/unit/models/cook_test.cpp: the mean of u_y over the right
+// side, which is mu times the work of the force 1 / mu.
+TEST(Verification, CooksMembraneLocksForP1) {
+  const std::string scene =
+      replaced(example("cook"), "cook.msh", std::string(EXAMPLE_SCENES) + "/cook.msh");
+  constexpr double mu = 0.375;
+  for (const auto& [element, deflection, locks] :
+       {std::tuple{"CR", 16.644870979853, false},
+        {"P2", 16.059639198545, false},
+        {"P1", 4.662290796348, true}}) {
+    const SceneRun run(with_element(scene, element));
+    const auto summary = run.summary();
+    const double mean = mu * summary["compliance"]["value"].get<double>();
+    EXPECT_NEAR(mean, deflection, 1e-7 * deflection) << element;
+    const std::string warning = summary["warning"];
+    EXPECT_EQ(warning.find("locks") != warning.npos, locks) << element << ": " << warning;
+    EXPECT_FALSE(summary.contains("contact_force")) << element;
+  }
+}
+
 /// u(1/2, 0) and u(1/2, -1) for the load sin(pi x). u = sin(pi x) g(y): g = a cosh(epsilon pi (y +
 /// 1)) in the layer and g = 1 / pi^2 + b cosh(pi y) + c sinh(pi y) in the body. g and its flux are
 /// continuous, and g(1) = 0.

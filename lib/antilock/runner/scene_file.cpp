@@ -387,7 +387,7 @@ void read_loading(const Section& section, const std::optional<UnilateralContact>
     block.friction = [bound = field_above(
                           [of = profile(section, "friction")](double x, double) { return of(x); },
                           section.where("friction"), true)](double x) { return bound(x, 0); };
-  if (contact) block.gap = contact->gap;  // else refused by check_model
+  if (contact) block.gap = contact->gap;
 }
 
 /// Coulomb's coefficient; 0 without the key. With it the bounds of u_x begin with the limit 0.
@@ -546,7 +546,7 @@ void check_model(const Section&, const AntiPlaneModel&, const Scene&, const Meth
 
 /// What plane strain has no use for yet.
 template <class Block>
-void check_model(const Section& root, const PressedModel<Block>&, const Scene& scene,
+void check_model(const Section& root, const PressedModel<Block>& model, const Scene& scene,
                  const MethodRequest& method) {
   const auto refuse = [&](const std::string& what, const std::string& accepted) {
     root.refuse("model.kind",
@@ -557,15 +557,17 @@ void check_model(const Section& root, const PressedModel<Block>&, const Scene& s
   if (method.element == hybrid_bdm1().name())
     refuse("element = \"" + method.element + "\", which has no Korn inequality",
            "\"CR\", \"P1\" to \"P4\"");
-  if (!scene.contact() || scene.contact()->upper_obstacle)
-    refuse("a scene without contact, or with a ceiling", "a section [contact]");
+  if (scene.contact() && scene.contact()->upper_obstacle) refuse("a ceiling", "a gap alone");
+  if (!scene.contact() && (scene.layer_depth() > 0 || model.block.friction))
+    refuse("a layer or friction without contact", "a section [contact]");
   if (scene.body().stiffness)
     refuse("a stiffness of the body", "no [body]; with a [layer], young and poisson in [model]");
   const auto* layer = std::get_if<StiffLayer>(&scene.layer());
   if (layer != nullptr && layer->load) refuse("a load on the layer", "none");
   for (const BoundaryCondition& edge : scene.edges())
-    if (edge.kind != BoundaryCondition::Kind::free)
-      refuse("a condition on the group " + edge.group, "free edges");
+    if (edge.kind != BoundaryCondition::Kind::free &&
+        edge.kind != BoundaryCondition::Kind::traction)
+      refuse("a displacement or a spring on the group " + edge.group, "free = true, traction");
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ std::vector<SceneKey> edge_keys() {
        .accepted = "true, or leave the key out",
        .line = 2, .example = "true"},
       {.section = "edge", .name = "displacement", .type = Type::formula_xy, .does = "u there", .accepted = in_x_and_y},
-      {.section = "edge", .name = "traction", .type = Type::formula_xy, .does = "the force per length",
+      {.section = "edge", .name = "traction", .type = Type::formula_xy, .does = "the force per length, upwards",
        .accepted = in_x_and_y},
       {.section = "edge", .name = "spring", .type = Type::formula_xy,
        .does = "the stiffness k >= 0 of a spring, whose force per length is -k u", .accepted = in_x_and_y},
@@ -130,7 +130,7 @@ std::vector<SceneKey> point_and_model_keys() {
        .otherwise = "anti-plane", .choices = {"anti-plane", "plane strain"},
        .line = 1, .example = "\"plane strain\"",
        .comment = "a block pressed down on the gap: its clamped edges (of the unit square: the top) sink by\n"
-                  "push = 0.1, the rest is free, f is upwards. Without a layer: rubber, mu = 1, epsilon = 1/lambda\n"
+                  "push = 0.1, the rest is free or has a traction upwards, f is upwards. Without a layer: rubber, mu = 1, epsilon = 1/lambda\n"
                   "(default 1e-8; 0: incompressible). With one: a coating of that thickness and of the block's\n"
                   "material (young = 1, poisson = 0.3) divided by it. friction = \"0.1\": Tresca's bound,\n"
                   "or coulomb = 0.3: Coulomb's coefficient, by a fixed point of Tresca's problems"},

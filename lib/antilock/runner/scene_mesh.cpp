@@ -185,7 +185,10 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file, const Geometry& geometry)
   };
   mesh.geometry = geometry;
   check_geometry(mesh);
-  if (!layered() && is_curved(scene_file, mesh)) {
+  // In plane strain without layer and contact the group contact is free, wherever its edges lie.
+  const bool any_shape =
+      traits_of(scene_file.model).components > 1 && !scene.contact() && depth == 0;
+  if (!any_shape && !layered() && is_curved(scene_file, mesh)) {
     TriangleMesh below =
         extruded(mesh, scene.epsilon().value_or(0), true);  // which says what Sigma may be
     return depth > 0 ? below : mesh;
@@ -202,6 +205,7 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file, const Geometry& geometry)
           "has a group layer, which this scene has no use for; accepted: a mesh of the body alone");
     if (!has_layer && depth > 0)
       throw MeshError("has nothing in the physical group \"layer\", which this scene needs");
+    if (any_shape) return mesh;
     const Extent sigma = check_bottom_edge(mesh, has_layer ? EdgeTag::sigma : EdgeTag::contact);
     if (has_layer) check_layer(mesh, sigma, depth);
     check_contact_side(mesh, -depth, sigma.size);

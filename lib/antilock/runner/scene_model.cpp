@@ -77,7 +77,8 @@ Eigen::VectorXd PressedModel<Block>::dirichlet_values(const Scene&,
 template <class Block>
 VariationalInequality PressedModel<Block>::problem(const Scene& scene, const Space& space) const {
   VariationalInequality of_both = assemble(block, VectorSpace{space, space});
-  of_both.load.tail(space.size()) = load_vector(space, scene.body().load);  // f acts in y
+  of_both.load.tail(space.size()) = load_of(scene, space);  // f and tractions act in y
+  if (!scene.contact()) of_both.bounds = {};  // the contact edges of the mesh are free
   return of_both;
 }
 
@@ -125,7 +126,7 @@ template <>
 std::optional<LockingReport> PressedModel<PlaneStrain>::locking_report(const SceneFile& file,
                                                                        const Space& space) const {
   const Element& element = space.element();
-  const double h = mesh_width(file, space.mesh());
+  const double h = mesh_width(file, space.mesh()) / body_size(space.mesh());
   // P1 in rubber, pressed on a round punch: its force is 4 to 10 % too large at h^2 = epsilon / 10
   // (both meshes, 1/h = 8 and 32), 23 to 40 % at h^2 = epsilon, and it doubles at ten times that
   if (!element.conforming() || element.degree() != 1 || h * h <= 0.1 * block.epsilon) return {};
@@ -134,8 +135,8 @@ std::optional<LockingReport> PressedModel<PlaneStrain>::locking_report(const Sce
                   "{:g} it locks",
                   h * h, block.epsilon),
       {},
-      "P1 locks in this rubber: the contact force is too large; remedy: element = \"CR\" or "
-      "\"P2\""};
+      fmt::format("P1 locks in this rubber: {}; remedy: element = \"CR\" or \"P2\"",
+                  file.scene.contact() ? "the contact force is too large" : "it is too stiff")};
 }
 
 template <>

@@ -89,7 +89,8 @@ struct PressedModel {
 using RubberModel = PressedModel<PlaneStrain>;
 template <>
 std::optional<double> PressedModel<PlaneStrain>::penalty(const Space& space) const;
-/// Reports that P1 locks if h^2 is not small compared with epsilon.
+/// Reports that P1 locks if h^2 is not small compared with epsilon, h relative to the size of the
+/// body.
 template <>
 std::optional<LockingReport> PressedModel<PlaneStrain>::locking_report(const SceneFile& file,
                                                                        const Space& space) const;
