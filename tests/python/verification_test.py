@@ -49,3 +49,6 @@ def test_an_arch_has_the_deflection_of_another_program():
     # 8 elements, both forms in one dense matrix
     assert arch(8, 0.1, GAUSS) == pytest.approx(0.553, rel=2e-3)
     assert arch(8, 1e-3, MIDPOINT) == pytest.approx(0.775393, rel=1e-5)
+    assert arch(32, 1e-3, MIDPOINT) == pytest.approx(0.784769, rel=1e-5)
+    assert arch(8, 1e-3, GAUSS) == pytest.approx(0.000204, rel=1e-2)
+    assert arch(32, 1e-3, GAUSS) == pytest.approx(0.00324, rel=1e-2)
