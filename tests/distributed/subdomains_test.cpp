@@ -54,11 +54,21 @@ TEST(Strips, EndAtColumnsAndShareTheTrianglesOut) {
     }
 }
 
-TEST(Strips, RefuseALayerWithoutColumnsAndMoreRanksThanColumns) {
-  EXPECT_THROW(strip_partition(unstructured_mesh(8), 2), Error);
+TEST(Strips, RefuseMoreRanksThanColumns) {
   EXPECT_THROW(strip_partition(structured_mesh(3), 4), Error);
   EXPECT_NO_THROW(strip_partition(structured_mesh(4), 4));
-  EXPECT_NO_THROW(strip_partition(unstructured_mesh(8), 2, true));
+  EXPECT_NO_THROW(strip_partition(unstructured_mesh(8), 2));
+}
+
+TEST(Columns, AreBrokenByATriangleOfTheLayerAlone) {
+  for (const TriangleMesh& mesh :
+       {structured_mesh(8), layered_mesh(8), antilock::refined(layered_mesh(8))})
+    EXPECT_EQ(find_triangle_across_columns(mesh), -1);
+  for (const TriangleMesh& mesh : {unstructured_mesh(8), jittered_mesh(8, 0.1)}) {
+    const int t = find_triangle_across_columns(mesh);
+    ASSERT_GE(t, 0);
+    EXPECT_EQ(mesh.region[t], Region::layer);
+  }
 }
 
 TEST(Pieces, RefinedAreThePiecesOfTheRefinedMesh) {

@@ -28,6 +28,17 @@ void check_question(const Scene& scene, const Element& element) {
         "layer.model: \"ventcel\" is not accepted by petsc; accepted \"scaled\" and \"thin\"");
 }
 
+void require_columns(const TriangleMesh& mesh) {
+  const int t = find_triangle_across_columns(mesh);
+  if (t < 0) return;
+  throw Error(fmt::format(
+      "the layer's triangle at ({:.6g}, {:.6g}) crosses a vertical line through the vertices "
+      "of the contact edges: the layer is not made of columns, and multigrid fails on it; "
+      "accepted: kind = \"layered\" or \"structured\", or --direct (MUMPS)",
+      mesh.vertices.col(0)(mesh.triangles.row(t)).mean(),
+      mesh.vertices.col(1)(mesh.triangles.row(t)).mean()));
+}
+
 /// The corners of child i of a triangle in the barycentric coordinates of its parent
 /// (partition.hpp's order): the midpoints of the edges, or corner i and the midpoints beside it.
 Eigen::Matrix3d corners_of_child(int i) {
@@ -103,11 +114,10 @@ std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh
   TriangleMesh subdomain;
   collectively([&] {
     check_question(scene, element);
-    subdomain =
-        subdomain_of(coarse,
-                     options.partition ? options.partition(coarse, ranks())
-                                       : strip_partition(coarse, ranks(), options.loop.direct),
-                     rank());
+    if (!options.partition && !options.loop.direct) require_columns(coarse);
+    const std::vector<int> rank_of =
+        options.partition ? options.partition(coarse, ranks()) : strip_partition(coarse, ranks());
+    subdomain = subdomain_of(coarse, rank_of, rank());
   });
   watch.lap();
   const int first = std::max(0, std::min(options.first_level, options.refinements));

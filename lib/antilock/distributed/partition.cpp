@@ -27,9 +27,36 @@ std::vector<double> column_lines(const TriangleMesh& mesh) {
   return x;
 }
 
+/// The column of every triangle, by its centroid.
+std::vector<int> column_of_triangles(const TriangleMesh& mesh, const std::vector<double>& lines) {
+  const int last = static_cast<int>(lines.size()) - 2;
+  std::vector<int> column;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const double x = mesh.vertices.col(0)(mesh.triangles.row(t)).mean();
+    const auto after =
+        static_cast<int>(std::upper_bound(lines.begin(), lines.end(), x) - lines.begin());
+    column.push_back(std::clamp(after - 1, 0, last));
+  }
+  return column;
+}
+
 }  // namespace
 
-std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks, bool any_layer) {
+int find_triangle_across_columns(const TriangleMesh& mesh) {
+  const std::vector<double> lines = column_lines(mesh);
+  if (lines.size() < 2) return -1;
+  const std::vector<int> column = column_of_triangles(mesh, lines);
+  const double off = rounding(mesh);
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] != Region::layer) continue;
+    const Eigen::Vector3d x = mesh.vertices.col(0)(mesh.triangles.row(t));
+    if (x.minCoeff() < lines[column[t]] - off || x.maxCoeff() > lines[column[t] + 1] + off)
+      return t;
+  }
+  return -1;
+}
+
+std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks) {
   const std::vector<double> lines = column_lines(mesh);
   const int columns = static_cast<int>(lines.size()) - 1;
   if (columns < ranks)
@@ -37,23 +64,9 @@ std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks, bool any_l
         "{} ranks for {} columns of the layer; accepted: a column or more per rank (start fewer "
         "ranks, or ask for more cells)",
         ranks, columns));
-  std::vector<int> column(mesh.triangle_count()), filled(columns, 0);
-  const double off = rounding(mesh);
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Eigen::Vector3d x = mesh.vertices.col(0)(mesh.triangles.row(t));
-    const auto after =
-        static_cast<int>(std::upper_bound(lines.begin(), lines.end(), x.mean()) - lines.begin());
-    column[t] = std::clamp(after - 1, 0, columns - 1);
-    ++filled[column[t]];
-    if (any_layer || mesh.region[t] != Region::layer) continue;
-    const double left = lines[column[t]], right = lines[column[t] + 1];
-    if (x.minCoeff() < left - off || x.maxCoeff() > right + off)
-      throw Error(fmt::format(
-          "the layer's triangle at ({:.6g}, {:.6g}) crosses a vertical line through the vertices "
-          "of the contact edges: the layer is not made of columns, and multigrid fails on it; "
-          "accepted: kind = \"layered\" or \"structured\", or --direct (MUMPS)",
-          x.mean(), mesh.vertices.col(1)(mesh.triangles.row(t)).mean()));
-  }
+  std::vector<int> column = column_of_triangles(mesh, lines);
+  std::vector<int> filled(columns, 0);
+  for (const int c : column) ++filled[c];
   // a strip ends at the column that brings the triangles up to its share, and leaves a column to
   // each rank to come
   std::vector<int> rank_of(columns);

@@ -6,11 +6,15 @@
 namespace antilock::distributed {
 
 /// Returns the rank of every triangle. Each rank has a strip in x with about the same number of
-/// triangles. A strip ends where a column of the layer ends: if a strip cut a column, multigrid
-/// would need up to four times as many iterations. Throws Error where there are fewer columns than
-/// ranks, and, unless `any_layer`, where the layer is not made of columns (triangles between two
-/// neighbouring vertical lines).
-std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks, bool any_layer = false);
+/// triangles. Columns are the ranges of x between neighbouring vertices of Gamma_C, and a triangle
+/// lies in the column of its centroid. A strip consists of whole columns: if a strip cut a column
+/// of the layer, multigrid would need up to four times as many iterations. Throws Error where there
+/// are fewer columns than ranks.
+std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks);
+
+/// Returns a triangle of the layer that crosses a vertical line through a vertex of Gamma_C, or -1
+/// if there is none. Then the layer is made of columns, and so is that of every refinement.
+int find_triangle_across_columns(const TriangleMesh& mesh);
 
 /// Returns the mesh of the triangles of this rank. In this mesh an edge between two ranks has only
 /// the triangle of this rank, and it keeps its tag. `rank_of` has one rank per triangle of the
