@@ -28,7 +28,7 @@ double penalty_over_all(StiffnessRatio s) {
 
 DistributedProblem::DistributedProblem(const Scene& scene, const Space& space,
                                        PenaltyChoice penalty)
-    : rows_(space) {
+    : space_(space), rows_(space) {
   const auto& region = space.mesh().region;
   const long long here = std::count(region.begin(), region.end(), Region::layer), all = sum(here);
   collectively([&] {  // a strip without a part of the layer (between the two feet of a body) has

@@ -28,6 +28,8 @@ class DistributedProblem {
   /// The forms and the load of the subdomain. rows() and lower() replace its lists of prescribed
   /// and contact unknowns, because a vertex may be on a boundary edge of another subdomain only.
   const VariationalInequality& part() const { return part_; }
+  /// The space on the subdomain of this rank.
+  const Space& space() const { return space_; }
   const DofMap& rows() const { return rows_; }
   /// N x N: A_delta, in which clamped rows have only their diagonal.
   const Matrix& k() const { return k_; }
@@ -56,6 +58,7 @@ class DistributedProblem {
 
  private:
   void sum_k(SparseMatrix part);
+  Space space_;
   VariationalInequality part_;
   DofMap rows_;
   Matrix k_;
