@@ -28,6 +28,7 @@ template <class Object, PetscErrorCode (*destroy)(Object*)>
 class Handle {
  public:
   Handle() = default;
+  explicit Handle(Object object) : object_(object) {}  ///< takes the ownership
   Handle(Handle&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
   Handle& operator=(Handle&& other) noexcept {
     std::swap(object_, other.object_);
