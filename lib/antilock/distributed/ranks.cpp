@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "antilock/core/error.hpp"
-#include "antilock/distributed/detail/petsc.hpp"
+#include "antilock/distributed/detail/strip_multigrid.hpp"
 
 namespace antilock::distributed {
 namespace {
@@ -19,17 +19,26 @@ namespace {
 /// whatever delta, on layers in columns. The interpolation FF1 is set up in 0.87 of the seconds of
 /// ext+i, for 13 iterations in place of 11 (2.1 million unknowns, two ranks: 0.9 of the processor's
 /// seconds in all). One forward sweep of SOR down and one backward sweep up take half the time of
-/// symmetric sweeps on both ways, and as many iterations. MUMPS may take twice the memory that it
-/// estimates: its own 20 % more are not enough for the small first levels on three ranks. PETSc
-/// 3.22 would print a warning of those that a run does not use.
-constexpr auto defaults =
-    "-no_signal_handler -ksp_type cg -ksp_norm_type natural -pc_type hypre -pc_hypre_type "
-    "boomeramg "
-    "-pc_hypre_boomeramg_coarsen_type HMIS -pc_hypre_boomeramg_interp_type FF1 "
-    "-pc_hypre_boomeramg_P_max 6 "
-    "-pc_hypre_boomeramg_relax_type_down SOR/Jacobi -pc_hypre_boomeramg_relax_type_up "
-    "backward-SOR/Jacobi "
-    "-mat_mumps_icntl_14 100 -options_left no";
+/// symmetric sweeps on both ways, and as many iterations. The coarse problem of a layer without
+/// columns has the same options.
+std::string multigrid_options(const std::string& prefix) {
+  return fmt::format(
+      "-{0}pc_type hypre -{0}pc_hypre_type boomeramg "
+      "-{0}pc_hypre_boomeramg_coarsen_type HMIS -{0}pc_hypre_boomeramg_interp_type FF1 "
+      "-{0}pc_hypre_boomeramg_P_max 6 "
+      "-{0}pc_hypre_boomeramg_relax_type_down SOR/Jacobi "
+      "-{0}pc_hypre_boomeramg_relax_type_up backward-SOR/Jacobi ",
+      prefix);
+}
+
+/// MUMPS may take twice the memory that it estimates: its own 20 % more are not enough for the
+/// small first levels on three ranks. PETSc 3.22 would print a warning of those that a run does not
+/// use.
+std::string default_options() {
+  return "-no_signal_handler -ksp_type cg -ksp_norm_type natural " + multigrid_options("") +
+         multigrid_options(std::string(StripMultigrid::prefix) + "mg_coarse_") +
+         "-mat_mumps_icntl_14 100 -options_left no";
+}
 
 enum Outcome : int { unconverged, no_memory, bad_input, refused };
 struct Failure {
@@ -62,7 +71,7 @@ Session::Session() {
   static char* arguments[] = {program, skip, nullptr};  // PETSc keeps the pointer
   int count = 2;
   char** given = arguments;
-  ok(PetscOptionsInsertString(nullptr, defaults));
+  ok(PetscOptionsInsertString(nullptr, default_options().c_str()));
   ok(PetscInitialize(&count, &given, nullptr, nullptr));  // reads PETSC_OPTIONS over them
   ok(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
 }
