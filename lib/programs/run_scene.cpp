@@ -216,7 +216,7 @@ int main(int argc, char** argv) {
   line.add_option("--files", files,
                   "which files to write: any of summary, csv, mesh, vtu, with commas between them");
   line.add_flag("--direct", asked.direct,
-                "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
+                "with solver = \"petsc\": a factor by MUMPS in place of multigrid");
   line.add_flag("--restart", asked.restart,
                 "with solver = \"petsc\": start from the last level of a run that was ended");
   line.add_option("--most-seconds", asked.most_seconds,

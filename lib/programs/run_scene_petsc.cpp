@@ -194,7 +194,7 @@ class SceneRun {
 
   void set_options() {
     options_.refinements = hierarchy_.refinements;
-    options_.loop.direct = choices_.direct;
+    if (choices_.direct) options_.loop.preconditioner = dist::Preconditioner::factor;
     options_.loop.progress = [most = choices_.most_seconds, since = Stopwatch()](const Progress&) {
       return since.seconds() <= most;
     };
@@ -299,7 +299,7 @@ int run(int argc, char** argv) {
                   "stop a solve that takes longer: status 3")
       ->check(CLI::Range(0.0, choices.most_seconds));
   line.add_flag("--direct", choices.direct,
-                "MUMPS in place of multigrid: for layers without columns");
+                "a factor by MUMPS in place of multigrid");
   if (const auto status = tutorial::parse(line, argc, argv, dist::rank() > 0)) return *status;
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {

@@ -180,7 +180,6 @@ void expect_refused(const Scene& scene, const TriangleMesh& coarse, const Elemen
 }
 
 TEST(Refusals, AreTheSameOnEveryRank) {
-  expect_refused<Error>(scene(), unstructured_mesh(8), crouzeix_raviart(), {});
   expect_refused<Error>(scene(), structured_mesh(8), p2(), {});
   expect_refused<Error>(scene(), structured_mesh(8, {0}), p1(), {});  // no layer to be found
   expect_refused<Error>(Scene({paper_load}, VentcelLayer{}), structured_mesh(8, {0}), p1(), {});

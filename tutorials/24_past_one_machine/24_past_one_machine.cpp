@@ -108,9 +108,9 @@ Ended on_each_rank(const Asked& ask) {
     coarse /= 2, ++options.refinements;
   const TriangleMesh mesh = columns ? structured_mesh(coarse) : unstructured_mesh(coarse);
   if (ask.what == "chessboard") options.partition = tutorial::chessboard;
-  if (!columns) options.partition = tutorial::all_on_the_first;
   // ### Solve
-  options.loop.direct = ask.what == "MUMPS";
+  if (ask.what == "multigrid") options.loop.preconditioner = dist::Preconditioner::multigrid;
+  if (ask.what == "MUMPS") options.loop.preconditioner = dist::Preconditioner::factor;
   dist::NestedReport report;
   const Stopwatch watch;
   const auto level =

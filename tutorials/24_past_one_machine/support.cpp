@@ -138,10 +138,6 @@ std::vector<int> chessboard(const TriangleMesh& mesh, int ranks) {
   return rank_of;
 }
 
-std::vector<int> all_on_the_first(const TriangleMesh& mesh, int) {
-  return std::vector<int>(mesh.triangle_count(), 0);
-}
-
 void write_scaling(const std::filesystem::path& folder, const Table& strong,
                    const Table& weak, const Table& cut) {
   Table scaling(

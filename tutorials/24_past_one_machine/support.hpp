@@ -52,9 +52,8 @@ Solution serial(const TriangleMesh& mesh, const Element& element, double epsilon
 void print_runs(const Table& runs);
 
 /// Shares of the triangles that cut columns: eighths of the unit square in turn, as on a
-/// chessboard; all on rank 0.
+/// chessboard.
 std::vector<int> chessboard(const TriangleMesh& mesh, int ranks);
-std::vector<int> all_on_the_first(const TriangleMesh& mesh, int ranks);
 
 /// scaling.csv, as the picture takes it: per number of ranks the iterations of all
 /// corrections on one mesh, with as many unknowns per rank, and on one mesh with columns

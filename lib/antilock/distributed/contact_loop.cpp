@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/distributed/detail/strip_multigrid.hpp"
 #include "antilock/distributed/ranks.hpp"
 
 namespace antilock::distributed {
@@ -14,7 +17,33 @@ namespace {
 
 constexpr double inner =
     1e-4;  // conjugate gradients: what they leave of a correction, in the energy norm
+constexpr double inner_of_iterate =
+    1e-6;  // the same, relative to the energy norm of the iterate (contact_loop)
 constexpr int most_sets = 2000;  // contact sets tried
+
+/// The error in the energy norm at which conjugate gradients stop, and the iterations that they may
+/// take.
+struct StoppingRule {
+  double energy = std::numeric_limits<double>::infinity();
+  int most = 0;
+  double first = 0;  ///< the norm of the first residual, set by has_stopped
+};
+
+/// PETSc's test of convergence with a StoppingRule: the natural norm is that of the error, but for
+/// the preconditioner.
+PetscErrorCode has_stopped(KSP, PetscInt iteration, PetscReal norm, KSPConvergedReason* reason,
+                           void* context) {
+  auto& rule = *static_cast<StoppingRule*>(context);
+  if (iteration == 0) rule.first = norm;
+  *reason = KSP_CONVERGED_ITERATING;
+  if (!std::isfinite(norm))
+    *reason = KSP_DIVERGED_NANORINF;
+  else if (norm <= std::min(inner * rule.first, rule.energy) || norm <= 1e-14 * rule.first)
+    *reason = KSP_CONVERGED_RTOL;
+  else if (iteration >= rule.most)
+    *reason = KSP_DIVERGED_ITS;
+  return 0;
+}
 
 double largest_entry(Vec v) {
   PetscReal value = 0;
@@ -23,14 +52,16 @@ double largest_entry(Vec v) {
 }
 
 /// K with the rows and columns of the contact set replaced by delta^-1 times the identity, and its
-/// multigrid.
+/// preconditioner.
 class HeldSystem {
  public:
-  HeldSystem(const DistributedProblem& problem, bool direct) : problem_(problem) {
+  HeldSystem(const DistributedProblem& problem, Preconditioner kind)
+      : problem_(problem), uses_strips_(kind == Preconditioner::strips) {
     ok(MatDuplicate(problem.k(), MAT_DO_NOT_COPY_VALUES, &held_));
     ok(KSPCreate(PETSC_COMM_WORLD, &solver_));
+    if (uses_strips_) return;
     ok(KSPSetFromOptions(solver_));
-    if (!direct) return;
+    if (kind == Preconditioner::multigrid) return;
     PC factor = nullptr;
     ok(KSPGetPC(solver_, &factor));
     ok(PCSetType(factor, PCCHOLESKY));
@@ -42,9 +73,18 @@ class HeldSystem {
     ok(MatCopy(problem_.k(), held_, SAME_NONZERO_PATTERN));
     ok(MatZeroRowsColumns(held_, static_cast<PetscInt>(rows.size()), rows.data(),
                           1 / problem_.delta(), jump, rhs));
-    ok(KSPSetOperators(solver_, held_, held_));
+    held_rows_ = rows;
+    if (!uses_strips_) ok(KSPSetOperators(solver_, held_, held_));
   }
-  void set_up() { ok(KSPSetUp(solver_)); }
+  /// Throws NotConverged, on every rank, as StripMultigrid does.
+  void set_up() {
+    if (!uses_strips_) {
+      ok(KSPSetUp(solver_));
+      return;
+    }
+    if (!strips_) strips_.emplace(problem_);
+    strips_->set_up(solver_, held_, held_rows_);
+  }
   /// Conjugate gradients with an incomplete factor of each rank's own rows. They stand column by
   /// column, so it is exact along a column of the layer. Where there is no such factor, du is 0.
   void smooth(Vec rhs, Vec du, int iterations) {
@@ -61,9 +101,15 @@ class HeldSystem {
     ok(KSPGetConvergedReason(smoother, &reason));
     if (reason < 0 && reason != KSP_DIVERGED_ITS) ok(VecSet(du, 0));
   }
-  /// The iterations that it took. Throws NotConverged.
-  int solve(Vec rhs, Vec du, int most) {
+  /// The iterations that it took. `iterate` is the energy norm of u. Throws NotConverged.
+  int solve(Vec rhs, Vec du, int most, double iterate) {
     ok(KSPSetTolerances(solver_, inner, 1e-300, PETSC_DEFAULT, most));
+    if (uses_strips_) {
+      rule_ = {};
+      rule_.most = most;
+      if (iterate > 0) rule_.energy = inner_of_iterate * iterate;
+      ok(KSPSetConvergenceTest(solver_, has_stopped, &rule_, nullptr));
+    }
     ok(KSPSolve(solver_, rhs, du));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     PetscInt iterations = 0;
@@ -74,8 +120,9 @@ class HeldSystem {
       ok(KSPGetResidualNorm(solver_, &left));
       throw NotConverged(
           fmt::format(
-              "petsc: conjugate gradients gave up after {} iterations ({}), residual {:.1e}",
-              iterations, KSPConvergedReasons[reason], left),
+              "petsc: conjugate gradients gave up after {} iterations ({}), residual {:.1e}{}",
+              iterations, KSPConvergedReasons[reason], left,
+              uses_strips_ ? " (strips of the layer); accepted: --direct (MUMPS)" : ""),
           left, static_cast<int>(iterations));
     }
     return static_cast<int>(iterations);
@@ -83,7 +130,11 @@ class HeldSystem {
 
  private:
   const DistributedProblem& problem_;
+  const bool uses_strips_;
   Matrix held_;
+  std::vector<PetscInt> held_rows_;       ///< of this rank, ascending
+  std::optional<StripMultigrid> strips_;  ///< made by the first set_up
+  StoppingRule rule_;
   LinearSolver solver_;
 };
 
@@ -109,11 +160,12 @@ class ContactLoop {
         rhs_(rows_.vector()),
         du_(rows_.vector()),
         jump_(rows_.vector()),
-        system_(problem, options.direct) {
+        load_(rows_.vector()),
+        system_(problem, options.preconditioner.value_or(Preconditioner::multigrid)) {
     rows_.owned_part(state.u, u_);
     state.u = rows_.local(u_);
-    rows_.summed(rows_.unclamped(problem.part().load), rhs_);  // a clamp bears any
-    load_ = largest_entry(rhs_);
+    rows_.summed(rows_.unclamped(problem.part().load), load_);  // a clamp bears any
+    largest_load_ = largest_entry(load_);
   }
 
   LoopReport run() {
@@ -147,7 +199,7 @@ class ContactLoop {
   ContactStep propose_set(bool first) {
     const Eigen::VectorXd& lower = problem_.lower();
     ContactStep set;
-    double force = load_;
+    double force = largest_load_;
     {
       Entries value(u_);
       Entries residual(r1_);
@@ -205,6 +257,13 @@ class ContactLoop {
         std::max(report_.change, set.unbalanced), step);
   }
 
+  /// sqrt(L' u), which is the energy norm of the solution where the gap is 0.
+  double energy_norm_of_iterate() const {
+    PetscScalar work = 0;
+    ok(VecDot(load_, u_, &work));
+    return std::sqrt(std::abs(work));
+  }
+
   /// Sets up the system on the set where it is due, and solves for du off the set, where the known
   /// du is added afterwards: solved for inexactly, it would be off.
   void solve_on_set(const ContactStep& set, bool first) {
@@ -224,7 +283,7 @@ class ContactLoop {
     if (smooth)
       system_.smooth(rhs_, du_, options_.smoothings);
     else
-      iterations = system_.solve(rhs_, du_, options_.max_iterations);
+      iterations = system_.solve(rhs_, du_, options_.max_iterations, energy_norm_of_iterate());
     report_.linear_iterations += iterations;
     report_.max_iterations = std::max(report_.max_iterations, iterations);
     ++report_.corrections;
@@ -254,8 +313,9 @@ class ContactLoop {
   Vector rhs_;
   Vector du_;
   Vector jump_;  ///< bound - u on the contact set, 0 off it
+  Vector load_;  ///< 0 at the clamped rows
   HeldSystem system_;
-  double load_ = 0;  ///< the largest entry of the load
+  double largest_load_ = 0;  ///< the largest entry of load_
   LoopReport report_;
   Stopwatch watch_;
 };

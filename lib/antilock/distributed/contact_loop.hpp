@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "antilock/core/progress.hpp"
 #include "antilock/distributed/detail/distributed_problem.hpp"
 #include "antilock/solve/solution.hpp"
@@ -14,6 +16,13 @@ struct State {
 /// Returns u = 0 and p = 0 with an empty contact set.
 State zero_state(const DistributedProblem& problem);
 
+/// The preconditioner of the conjugate gradients of a correction.
+enum class Preconditioner {
+  multigrid,  ///< BoomerAMG on A_delta: for a layer in columns
+  strips,     ///< two levels that know the kernel of B (detail/strip_multigrid.hpp): for any layer
+  factor,     ///< a factor of A_delta by MUMPS: for any layer, but it scales badly with the ranks
+};
+
 struct LoopOptions {
   /// The largest |du| of the last correction, relative to the largest |u|.
   double tolerance = 1e-10;
@@ -26,9 +35,8 @@ struct LoopOptions {
   /// Called on every rank before each correction and after the last one; `false` on one rank stops
   /// all ranks.
   ProgressHook progress;
-  /// Whether MUMPS factors the matrix. It takes the place of multigrid, and is meant for layers
-  /// that are not made of columns.
-  bool direct = false;
+  /// Empty: the choice of solve_nested, and multigrid in contact_loop.
+  std::optional<Preconditioner> preconditioner;
 };
 
 /// Counts and times of the loop. The counts are the same on every rank.
@@ -52,13 +60,18 @@ struct LoopReport {
 ///     (A1 + delta^-1 B' M B) du = r1 + delta^-1 B' M r2  off the contact set,
 ///                            du = bound - u              on it
 ///
-/// is solved by conjugate gradients with multigrid, to a relative accuracy of 1e-4. The first
+/// is solved by conjugate gradients, to a relative accuracy of 1e-4 in the energy norm. With
+/// Preconditioner::strips the error must also fall below 1e-6 of sqrt(L' u), the energy norm of the
+/// iterate: the residual after a change of the contact set is large and stiff, and 1e-4 of it may
+/// hide the soft part that decides the next set, which would then cycle (measured: more than 200
+/// sets for delta far below h^2, and 3 to 6 corrections with this condition). The first
 /// correction uses the contact set of the start. Before each later one, a point of the set stays in
 /// it if the bound presses on it (r1 < 0), and another point enters it if u is below the bound. The
 /// loop ends where the set has not changed, and `tolerance` and `residual` are met. (A1, B, M, r1,
-/// r2 and delta are those of detail/distributed_problem.hpp.) Multigrid is set up again if the set
-/// has changed. The old hierarchy would need up to four times as many iterations, because a
-/// released point frees a whole column of the layer.
+/// r2 and delta are those of detail/distributed_problem.hpp.) The preconditioner is set up again if
+/// the set has changed; of the strips only those with a changed point are factored again. The old
+/// hierarchy of multigrid would need up to four times as many iterations, because a released point
+/// frees a whole column of the layer.
 ///
 /// The error of a start from a coarser level consists of short waves. A few smoothing steps remove
 /// them, so that the contact set is then nearly right and multigrid is set up only once. Residuals

@@ -37,7 +37,9 @@ struct NestedOptions {
   /// Returns the rank of every triangle of the coarse mesh; empty: strip_partition. It serves to
   /// measure other partitions.
   std::function<std::vector<int>(const TriangleMesh&, int ranks)> partition;
-  LoopOptions loop;  ///< of the last level
+  /// Those of the last level. Where they name no preconditioner, it is multigrid for a layer in
+  /// columns or one that is not stiff, and strips for every other layer.
+  LoopOptions loop;
   /// The level on which the first solve is made. A run that continues from the checkpoint of level
   /// k begins at level k + 1.
   int first_level = 0;

@@ -35,9 +35,11 @@ std::string multigrid_options(const std::string& prefix) {
 /// small first levels on three ranks. PETSc 3.22 would print a warning of those that a run does not
 /// use.
 std::string default_options() {
-  return "-no_signal_handler -ksp_type cg -ksp_norm_type natural " + multigrid_options("") +
-         multigrid_options(std::string(StripMultigrid::prefix) + "mg_coarse_") +
-         "-mat_mumps_icntl_14 100 -options_left no";
+  const std::string of_coarse_problem = fmt::format("{}mg_coarse_", StripMultigrid::prefix);
+  return fmt::format(
+      "-no_signal_handler -ksp_type cg -ksp_norm_type natural {}{}"
+      "-mat_mumps_icntl_14 100 -options_left no",
+      multigrid_options(""), multigrid_options(of_coarse_problem));
 }
 
 enum Outcome : int { unconverged, no_memory, bad_input, refused };

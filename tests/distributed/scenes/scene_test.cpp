@@ -128,7 +128,8 @@ TEST(PetscScene, GivesTheFilesOfTheSerialRunOnAnyNumberOfRanks) {
     std::vector<int> ranks;
   } cases[] = {{"structured", "P1", 64, 0, 3, {0, 1}}, {"structured", "P1", 64, 0, 2, {4}},
                {"structured", "CR", 32, 0, 2, {2}},    {"structured", "P1", 16, 1, 2, {2}},
-               {"layered", "P1", 9, 2, 3, {3}},        {"layered", "CR", 9, 2, 3, {4}}};
+               {"layered", "P1", 9, 2, 3, {3}},        {"layered", "CR", 9, 2, 3, {4}},
+               {"unstructured", "CR", 9, 2, 3, {0, 3}}};
   for (const auto& [kind, element, cells, refinements, levels, ranks] : cases)
     expect_the_files_of_the_serial_run(
         Runs(scene_text("active-set", kind, element, cells, "", refinements)),
@@ -203,7 +204,6 @@ TEST(PetscScene, ABadQuestionIsRefusedOnEveryRankAlike) {
     std::string scene, says;
     int status;
   } cases[] = {
-      {scene_text("petsc", "unstructured", "CR", 16), "layered", 2},
       {scene_text("petsc", "structured", "P1", 3), "4 ranks for 3 columns", 2},
       {scene_text("active-set", "structured", "P1", 16), "petsc", 2},
       {scene_text("petsc", "structured", "P1", 32, "tolerance = 1e-18\n"), "double precision", 3},
@@ -225,11 +225,14 @@ TEST(PetscScene, ABadQuestionIsRefusedOnEveryRankAlike) {
 }
 
 TEST(PetscScene, ALimitOfTimeEndsItOnEveryRank) {
-  const Runs runs(scene_text("petsc", "structured", "P1", 64));
-  const Outcome outcome = runs.run(2, "results", "--most-seconds 0.001");
-  EXPECT_EQ(outcome.status, 3);
-  EXPECT_EQ(lines_about("stopped as asked", outcome.err), 1) << outcome.err;
-  EXPECT_FALSE(fs::exists(runs.results("results")));
+  for (const std::string& scene : {scene_text("petsc", "structured", "P1", 64),
+                                   scene_text("petsc", "unstructured", "CR", 32)}) {
+    const Runs runs(scene);
+    const Outcome outcome = runs.run(2, "results", "--most-seconds 0.001");
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_EQ(lines_about("stopped as asked", outcome.err), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(runs.results("results")));
+  }
 }
 
 TEST(PetscScene, ALimitOfMemoryIsSeenBeforeItIsMet) {
