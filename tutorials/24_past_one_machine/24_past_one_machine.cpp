@@ -19,7 +19,11 @@
 // columns are cut. By what factor do the iterations grow on four ranks, and why? (b) PETSc
 // has a solver of its own for variational inequalities. It is given the summed matrix
 // $A_1 + ε^{-2} B^T M B$ at ε = 1e-6. Does it find $u$, does it answer with a wrong $u$, or
-// does it report a failure?
+// does it report a failure? (c) The layer has no columns. A preconditioner solves small
+// problems on overlapping *subdomains* and one problem on a *coarse space*, and adds the
+// answers up. The subdomains are small patches, or strips from $Σ$ to $Γ_C$. The coarse
+// space stops at $Σ$, or goes on into the layer. Which of the four pairs needs as many
+// iterations for every δ and every h?
 //
 // ## Why the factor stops, and what replaces it
 //
@@ -48,7 +52,7 @@
 // $10^{-9}$ on every mesh. Each level of refinement begins with the contact set of the
 // level before.
 //
-// ## Why columns: the kernel again
+// ## Columns: multigrid finds the kernel
 //
 // Multigrid must keep on its coarse problems what $A_δ$ hardly charges: the kernel of $B$
 // on the layer. For P1 in columns that is one function per vertical line of vertices, and
@@ -58,21 +62,71 @@
 // multigrids that we tried merges unknowns so that they stay in this kernel: each needed
 // 500 iterations and more (observed).
 //
-// This says nothing against multigrid that *knows* the kernel. For elasticity that is
-// nearly incompressible, the same difficulty, Schöberl (1999) corrects on small patches of
-// triangles that hold the kernel's functions, and carries what a coarse mesh found to the
-// finer one so that the kernel stays the kernel; the number of iterations then does not
-// depend on the parameter (proved there). Farrell, Mitchell, Scott and Wechsung (2020) do
-// so on meshes whose triangles are cut in three at a point inside. Both need the meshes and
-// the patches, not the matrix alone. For this kernel the patches cannot be small: a
-// function of $x$ alone is in it (its edge means are, chapter 08), and it reaches from $Σ$
-// to $Γ_C$. A patch that holds such a function has the full height of the layer.
+// ## No columns: tell the solver the kernel
 //
-// Our cure is the layered mesh. Another is MUMPS, a direct solver whose ranks share the
-// factor (exercise 2); they send each other its numbers by MPI. A *strip* is here the part
-// of the mesh between two vertical lines that one rank owns, not the strip of chapter 19.
-// BDDC, a method that factors each strip by itself, took 5 to 9 iterations up to 1/h = 256
-// and broke down at 1.8 million unknowns; it is not offered.
+// A solver that cannot find the kernel in the matrix can be told of it. For elasticity
+// that is nearly incompressible, the same difficulty, Schöberl (1999) corrects on small
+// patches of triangles that hold the kernel's functions, and carries what a coarse mesh
+// found to the finer one so that the kernel stays the kernel; the number of iterations
+// then does not depend on the parameter (proved there). Farrell, Mitchell, Scott and
+// Wechsung (2020) do so on meshes whose triangles are cut in three at a point inside. Two
+// questions decide what becomes of this idea here: how far do the functions of our kernel
+// reach, and which of them are smooth?
+//
+// **The kernel is a flow.** Let $u$ be a function of Crouzeix-Raviart, $u_e$ its mean over
+// the edge $e$, which goes from the vertex $a$ to the vertex $b$. By Green's formula $∂_y
+// u_h$ on a triangle is a sum over its edges,
+//
+// $$ |T| ∂_y u_h = - \sum_{e ⊂ ∂T} (x_b - x_a) u_e, $$
+//
+// where the edges are run through counterclockwise. So $B u = 0$ says of $q_e = (x_b -
+// x_a) u_e$ that as much of it enters each triangle as leaves it: $q$ is a flow without
+// sources. A flow without sources in a simply connected layer has a stream function $ψ$
+// with values at the vertices, $q_e = ψ_b - ψ_a$ (proved: add $q$ up along any path).
+// Hence
+//
+// $$ u_e = (ψ_b - ψ_a) / (x_b - x_a). $$
+//
+// With $ψ = G(x)$ this is the mean of $g = G'$ over the edge. So *the means of every
+// function of $x$ lie in the kernel* (chapter 08), and they are the smooth functions in
+// it. On a vertical edge $u_e$ is free, because $q_e = 0$ there.
+//
+// **What $A_1$ charges.** $u$ is a difference quotient of $ψ$ in $x$, so $A_1$ charges
+// second differences of $ψ$ in $x$, triangle by triangle. A $ψ$ that changes with $y$,
+// however slowly, is another function on neighbouring triangles, and $A_1$ charges it
+// $h^{-2}$ times as much as a function of $x$ with the same values (argued, and observed
+// below). Two conclusions:
+//
+// 1. A subdomain must have the whole height from $Σ$ to $Γ_C$. If it ends in between, a
+//    function of $x$ is cut off along a horizontal line, and the part that is left over
+//    costs $h^{-2}$. It must also overlap its neighbours well: cutting $ψ$ off over a
+//    width $w$ costs about $(ψ / w^2)^2$.
+// 2. What is smooth from one subdomain to the next is a function of $x$. The coarse
+//    space must hold such functions: the hat functions of the vertices of $Σ$, taken by
+//    edge means. In the body they go on as P1, so that the coarse problem is P1 on a
+//    mesh whose layer is in columns. That is where multigrid works.
+//
+// *The smoother must hold the functions that cost nothing, and the coarse space the smooth
+// ones of them.* The program tries the four pairs of prediction (c).
+//
+// **Why the sum of the corrections is safe.** $A_δ$ is a sum over triangles. If at most
+// $N$ subdomains meet in a triangle, the sum of the exact corrections has no eigenvalue
+// above $N$ (proved: bound the energy triangle by triangle). We damp the sum by $1.5 / N$.
+// Then all its eigenvalues are below 2, and a step of smoothing, a coarse correction and
+// another step make a positive definite preconditioner for every mesh, every δ and every
+// contact set. How *small* the eigenvalues get, and with them the number of iterations, is
+// observed, not proved.
+//
+// **A stop that contact needs.** Four digits of each correction are not enough here. After
+// a change of the contact set the first residual is large and stiff, and $10^{-4}$ of it
+// hides the soft part that decides the next set: for δ far below $h^2$ the sets then cycle
+// for ever (observed). So the error must also fall below $10^{-6} \sqrt{L^T u}$.
+//
+// The other way is MUMPS, a direct solver whose ranks share the factor (exercise 2); they
+// send each other its numbers by MPI. BDDC, a method that factors each strip by itself,
+// took 5 to 9 iterations up to 1/h = 256 and broke down at 1.8 million unknowns; it is not
+// offered. A *strip* is here the part of the mesh or of the layer between two vertical
+// lines, not the strip of chapter 19.
 //
 // **SNESVI**, PETSc's own solver, is an active set
 // ([00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp)) whose line search
@@ -90,17 +144,19 @@
 #include "antilock/form/edge_forms.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
+#include "two_levels.hpp"
 
 using namespace antilock;
 namespace dist = antilock::distributed;
-using tutorial::Asked, tutorial::Ended, tutorial::on_ranks, tutorial::serial;
+using tutorial::Asked, tutorial::Ended, tutorial::iterations_table, tutorial::on_ranks,
+    tutorial::serial;
 
 // Every rank runs the next function: it knows the same coarse mesh, keeps its own strip and
 // refines that. No rank ever holds the fine mesh. $A_1$, $B$ and $M$ stay on their rank;
 // $A_δ$ alone is a matrix of all ranks.
 Ended on_each_rank(const Asked& ask) {
   const Scene scene = tutorial::paper_scene(ask.epsilon);
-  const bool columns = ask.what != "multigrid" && ask.what != "MUMPS";
+  const bool columns = ask.what == "strips" || ask.what == "chessboard";
   // ### Mesh
   dist::NestedOptions options;
   int coarse = ask.cells;
@@ -109,7 +165,8 @@ Ended on_each_rank(const Asked& ask) {
   const TriangleMesh mesh = columns ? structured_mesh(coarse) : unstructured_mesh(coarse);
   if (ask.what == "chessboard") options.partition = tutorial::chessboard;
   // ### Solve
-  if (ask.what == "multigrid") options.loop.preconditioner = dist::Preconditioner::multigrid;
+  if (ask.what == "multigrid")
+    options.loop.preconditioner = dist::Preconditioner::multigrid;
   if (ask.what == "MUMPS") options.loop.preconditioner = dist::Preconditioner::factor;
   dist::NestedReport report;
   const Stopwatch watch;
@@ -150,8 +207,15 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
   const Table strong = on_ranks("strips", {1, 2, 4}, same, epsilon),
               weak = on_ranks("strips", {1, 2, 4}, growing, epsilon),
               cut = on_ranks("chessboard", {1, 2, 4}, same, epsilon);
-  report.stage("a layer without columns; SNESVI; the serial library");
+  report.stage("a layer without columns: four pairs");
+  const Table pairs =
+      iterations_table({{false, false}, {false, true}, {true, false}, {true, true}}, {32},
+                       {1, 1e-2, 1e-4, 1e-6});
+  const Table growth =
+      iterations_table({{true, false}, {true, true}}, {32, 64, 128}, {1e-6});
+  report.stage("a layer without columns, distributed; SNESVI; the serial library");
   const Table without = on_ranks({"multigrid", 1, 32, epsilon}),
+              told = on_ranks("any layer", {1, 2, 4}, [](int) { return 32; }, epsilon),
               split = on_ranks({"SNESVI, split", 1, 32, 1e-6}),
               coarse = on_ranks({"SNESVI, summed", 1, 32, 1e-2}),
               summed = on_ranks({"SNESVI, summed", 1, 32, 1e-6}),
@@ -161,9 +225,11 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
   const Solution u = serial(structured_mesh(options.cells), p1(), epsilon);
   tutorial::write_scaling(options.out, strong, weak, cut);
   report.finish();
-  for (const Table& runs : {strong, weak, cut, without, split, coarse, summed, tao_coarse,
+  for (const Table& runs : {strong, weak, cut, without, told, split, coarse, summed, tao_coarse,
                             tao_summed, tao_split})
     tutorial::print_runs(runs);
+  pairs.print("iterations to 1e-8 at 1/h = 32");
+  growth.print("iterations to 1e-8 with strips");
 
   report.claim_within(std::abs(strong.max("u_max") / u.u.maxCoeff() - 1), 0, 1e-9,
                       "any ranks: away from the serial u by (observed)");
@@ -173,6 +239,20 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
                       "cut columns: iterations times (observed)");
   report.claim(without.entry("reason") == "gave_up",
                "BoomerAMG fails on a layer without columns (observed)");
+  const auto iterations = [](const Table& table, const char* subdomains, const char* hats) {
+    return table.filter("subdomains", subdomains).filter("hats", hats);
+  };
+  report.claim(iterations(pairs, "patches", "no").max("iterations") >= 200 &&
+                   iterations(pairs, "patches", "yes").max("iterations") >= 100,
+               "small patches fail as delta falls, with hats and without (observed)");
+  report.claim_within(iterations(growth, "strips", "no").last("iterations") /
+                          iterations(growth, "strips", "no").first("iterations"),
+                      1.2, 5, "strips without hats, 1/h from 32 to 128: times (observed)");
+  report.claim_within(std::max(iterations(pairs, "strips", "yes").max("iterations"),
+                               iterations(growth, "strips", "yes").max("iterations")),
+                      5, 16, "strips and hats, any delta and h: at most (observed)");
+  report.claim_within(told.max("most"), 1, 15,
+                      "the same on 1, 2 and 4 ranks: iterations per correction (observed)");
   const std::string reason = summed.entry("reason").text();
   report.claim(coarse.number("u_max") > 0 && summed.number("u_max") == 0 &&
                    reason.starts_with("DIVERGED"),
@@ -192,12 +272,20 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 // no descent (DIVERGED_LINE_SEARCH after one step), and $u$ is still the start, 0. At ε =
 // 1e-2 the same solver is right, and in the split form it is right at 1e-6.
 //
+// (c) Strips with hat functions, alone. Patches cut the functions that cost nothing, and
+// their iterations grow as δ falls, hat functions or not. Strips without hat functions no
+// longer feel δ, but what is smooth over many strips is left over, so that the iterations
+// grow with 1/h. With both, 10 to 12 iterations stay 10 to 12. On one core this gains
+// nothing over the serial factor in the plane. What it gains is ranks: no rank holds more
+// than its strips, and the largest problem that is factored is one of them.
+//
 // ## Exercises
 //
 // 1. Take ε = 0 in place of 1e-6. What becomes of the iterations?
 // 2. Take MUMPS in place of multigrid on the layer without columns. Does the loop settle,
 //    and on which $u$?
-// 3. On paper: how many columns must the coarse mesh have for 1,024 ranks, and how often is
+// 3. Predict, then try: strips of half the height. (Change `strips_of_layer`.)
+// 4. On paper: how many columns must the coarse mesh have for 1,024 ranks, and how often is
 //    it refined for $10^9$ unknowns?
 
 #include "answers.hpp"

@@ -27,6 +27,10 @@ const std::vector<tutorial::Exercise> exercises{
 
 // ## Answers on paper
 //
-// **3.** A strip owns whole columns, so 1,024 ranks need 1,024 of them. P1 has about
+// **3.** A strip of half the height cuts the functions of x off along a horizontal line. A
+// prototype of this preconditioner needed 97 iterations in place of 10 (gmsh's
+// Frontal-Delaunay mesh, δ = 1e-8), and 153 with a quarter of the height.
+//
+// **4.** A strip owns whole columns, so 1,024 ranks need 1,024 of them. P1 has about
 // $2 n^2$ unknowns, $n = 1/h$: $10^9$ of them ask for $n = 22,400$. That is 1,024 doubled 4
 // times (16,384) or 5 times (32,768).
