@@ -68,12 +68,14 @@ void add_friction(VariationalInequality& problem, const Profile& g, const Space&
 ///
 /// M does not change the solution, but the number of corrections. In fortin_soulie the difference
 /// of the two means of an edge enters the equations of its two triangles with opposite signs, as a
-/// flux enters a divergence. So a function whose equations are violated by g_T has an energy of
-/// about 16 sum_T g_T^2 |Omega| / |T| at least, and M has the factor |Omega| / |T|. With 300 in
-/// front of it there are 4 to 8 corrections to 1e-11, for lambda = 1, 1e4 and infinity and 1/h = 8
-/// to 32. With M = 1 there are more than 60 at lambda = 1, where the penalty is 1 (measured). A
-/// much larger M would raise the penalty of div u, which follows from the largest entries of
-/// B' M B (problem/choose_penalty.hpp).
+/// flux enters a divergence. To violate them by a given g_T takes an energy v' A1 v of up
+/// to 6 sum_T g_T^2 |Omega| / |T|, and not more (measured on structured meshes that are clamped on
+/// three sides, 1/h = 4 to 8). A correction multiplies the violation by at most
+/// 1 / (1 + M / (6 delta |Omega| / |T|)), with the penalty delta, so that M has the factor
+/// |Omega| / |T|. With 300 in front of it there are 4 to 8 corrections to 1e-11, for lambda = 1,
+/// 1e4 and infinity and 1/h = 8 to 32. With M = 1 there are more than 60 at lambda = 1, where the
+/// penalty is 1 (measured). A much larger M would raise the penalty of div u, which follows from
+/// the largest entries of B' M B (problem/choose_penalty.hpp).
 void append_equations(VariationalInequality& problem, const Space& space, int first) {
   const Eigen::VectorXd equation = space.element().equation();
   if (equation.size() == 0) return;
