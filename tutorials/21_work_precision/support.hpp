@@ -382,12 +382,13 @@ inline void write_order_two(const std::filesystem::path& folder, const Table& ru
   runs.write(folder / "order_two.csv");
   write_markdown(
       folder / "order_two.md",
-      fmt::format("What order 2 costs, on rows of triangles without columns (chapter 38): "
-                  "the number of unknowns, a colon, and the seconds of the active set "
-                  "(medians of {} runs, without mesh and assembly). The energy error is "
-                  "then below 10, 3, 1 or 0.3 % of the energy norm of u. `>` means that "
-                  "the finest mesh is too coarse.",
-                  repeats),
+      fmt::format(
+          "The price of order 2, on rows of triangles without columns (chapter "
+          "38). An entry has the number of unknowns, a colon, and the seconds of the "
+          "active set (medians of {} runs, without mesh and assembly). The energy "
+          "error is below 10, 3, 1 or 0.3 % of the energy norm of u. `>` means that "
+          "the finest mesh is too coarse.",
+          repeats),
       page);
 }
 
