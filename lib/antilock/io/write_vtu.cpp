@@ -161,12 +161,10 @@ Eigen::VectorXd point_pressure(const Space& space, const Eigen::VectorXd& pressu
   for (int edge = 0; edge < mesh.edge_count(); ++edge) {
     if (mesh.edge_tag[edge] != EdgeTag::contact) continue;
     const int triangle = mesh.edge_triangles(edge, 0);
-    for (int i = 0; i < 3; ++i) {
-      if (mesh.triangle_edges(triangle, i) != edge) continue;
-      const auto first = space.cell_dofs().row(triangle).segment(per_edge * i, per_edge);
-      values(3 * triangle + (i + 1) % 3) = of_unknown(first(0));
-      values(3 * triangle + (i + 2) % 3) = of_unknown(first(per_edge - 1));
-    }
+    const int i = local_edge(mesh, triangle, edge);
+    const auto unknowns = space.cell_dofs().row(triangle).segment(per_edge * i, per_edge);
+    values(3 * triangle + (i + 1) % 3) = of_unknown(unknowns(0));
+    values(3 * triangle + (i + 2) % 3) = of_unknown(unknowns(per_edge - 1));
   }
   return values;
 }

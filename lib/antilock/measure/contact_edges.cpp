@@ -11,9 +11,7 @@ std::vector<ContactEdge> contact_edges(const TriangleMesh& mesh) {
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     const int t = mesh.edge_triangles(e, 0);
-    int opposite = 0;
-    while (mesh.triangle_edges(t, opposite) != e) ++opposite;
-    edges.push_back({t, opposite, mesh.edge_length(e)});
+    edges.push_back({t, local_edge(mesh, t, e), mesh.edge_length(e)});
   }
   return edges;
 }
