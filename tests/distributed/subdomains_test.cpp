@@ -257,7 +257,7 @@ TEST(Snesvi, LosesTheSummedMatrixAndSolvesTheSplitForm) {
 }
 
 // Where TAO reports convergence, its u is that of the serial solver. Its tolerances for the summed
-// matrix are PETSc's own: 1e-8 for the gradient over the energy.
+// matrix are PETSc's own: 1e-8 for the gradient, and for the gradient over the energy.
 TEST(Tao, HasTheSerialSolutionWhereItReportsConvergence) {
   const TriangleMesh mesh = structured_mesh(16);
   const Scene question({paper_load}, StiffLayer{1e-2}, UnilateralContact{});

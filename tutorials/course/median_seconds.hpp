@@ -7,11 +7,10 @@
 
 namespace antilock::tutorial {
 
-/// Runs `work` as often as `repeats` says, once or more, and returns the median of its wall
-/// seconds.
+/// Runs `work` `repeats` times, at least once, and returns the median of its wall seconds.
 inline double median_seconds(int repeats, const std::function<void()>& work) {
   std::vector<double> seconds;
-  for (int k = 0; k < repeats; ++k) {
+  for (int k = 0; k < std::max(1, repeats); ++k) {
     const Stopwatch watch;
     work();
     seconds.push_back(watch.seconds());
