@@ -278,11 +278,12 @@ Found proximal_published(const OnContact& p) {
 // *Why is it not Ipopt?* The best-known free interior point program (Wächter and Biegler
 // 2006) is made for problems that are not convex. Most of it (a filter for the line search,
 // corrections of the inertia, a phase that restores feasibility) has nothing to do here,
-// because $F$ is positive semidefinite and $s = w + F λ$ is linear. FreeFEM's interface to
-// it takes the Hessian of all unknowns, which is $A_1 + ε^{-2} B^T M B$. This matrix loses
-// the digits of $A_1$ as ε falls, and does not exist at ε = 0 (chapter 18). So that run
-// would measure the sum of the two forms, and not the method. Mehrotra's method has the
-// same barrier, and takes the problem on $Γ_C$ at every ε.
+// because $F$ is positive semidefinite and $s = w + F λ$ is linear. With $u$ as its unknowns
+// it needs their Hessian, which is $A_1 + ε^{-2} B^T M B$. This matrix loses the digits of
+// $A_1$ as ε falls, and does not exist at ε = 0 (chapter 18), so that the run would measure
+// the sum of the two forms, and not the method. With $p$ as further unknowns and
+// $B u = ε^2 p$ as constraints it could take the split form. This was not run. Mehrotra's
+// method has the same barrier, and takes the problem on $Γ_C$ at every ε.
 Found interior_point(const OnContact& p) {
   const auto n = p.w.size();
   const double size = tutorial::size_of(p), flexible = p.f.diagonal().maxCoeff();
