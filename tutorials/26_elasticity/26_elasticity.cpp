@@ -118,8 +118,8 @@ Table smooth_errors() {
         const double squared =
             tutorial::squared_gradient_error(one, u.head(one.size()), 0) +
             tutorial::squared_gradient_error(one, u.tail(one.size()), 1);
-        errors.add({element->name(), epsilon, 1.0 / n, problem.free_count(),
-                    std::sqrt(squared)});
+        errors.add(
+            {element->name(), epsilon, 1.0 / n, problem.free_count(), std::sqrt(squared)});
       }
   return errors;
 }
@@ -129,9 +129,9 @@ void judge(const Table& checks, const Table& forces, int cells, tutorial::Report
 void judge_smooth(const Table& errors, tutorial::Report& report) {
   for (const double epsilon : {1.0, 0.0}) {
     const Table here = errors.filter("epsilon", epsilon);
-    report.claim_order(here.filter("element", "CR"), "gradient", "h", 0.8, 1.2,
-                       fmt::format("CR with jumps, epsilon = {}: gradient (observed)",
-                                   epsilon));
+    report.claim_order(
+        here.filter("element", "CR"), "gradient", "h", 0.8, 1.2,
+        fmt::format("CR with jumps, epsilon = {}: gradient (observed)", epsilon));
     report.claim_order(here.filter("element", "FS"), "gradient", "h", 1.8, 2.2,
                        fmt::format("Fortin and Soulie without jumps, epsilon = {}: "
                                    "gradient (observed)",

@@ -65,9 +65,7 @@ struct Swirl {
   static double load_x(double x, double y) {
     return -s(x)[2] * g(y)[1] - s(x)[0] * g(y)[3];
   }
-  static double load_y(double x, double y) {
-    return s(x)[3] * g(y)[0] + s(x)[1] * g(y)[2];
-  }
+  static double load_y(double x, double y) { return s(x)[3] * g(y)[0] + s(x)[1] * g(y)[2]; }
   static Eigen::Matrix2d gradient(double x, double y) {  ///< a row per component
     Eigen::Matrix2d rows;
     rows << s(x)[1] * g(y)[1], s(x)[0] * g(y)[2], -s(x)[2] * g(y)[0], -s(x)[1] * g(y)[1];
@@ -88,8 +86,7 @@ inline double squared_gradient_error(const Space& space, const Eigen::VectorXd& 
       const Eigen::RowVector2d discrete = u(space.cell_dofs().row(t)).transpose() *
                                           space.element().derivative(lambda) *
                                           barycentric_gradients(mesh, t);
-      const Eigen::RowVector2d off =
-          Swirl::gradient(x(0), x(1)).row(component) - discrete;
+      const Eigen::RowVector2d off = Swirl::gradient(x(0), x(1)).row(component) - discrete;
       squared += mesh.area(t) * rule.weights(q) * off.squaredNorm();
     }
   return squared;

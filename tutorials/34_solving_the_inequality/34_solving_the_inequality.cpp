@@ -616,15 +616,14 @@ int main(int argc, char** argv) {
                     "runs of each solver; their median is its time")
         ->check(CLI::Range(1, 99));
   };
-  return tutorial::run(argc, argv, "34_solving_the_inequality",
-                       "eight solvers of one inequality, down to epsilon = 0",
-                       {.takes_epsilon = false,
-                        .cells = 64,
-                        .least_cells = 32,
-                        .most_cells = 128,
-                        .add = add_options,
-                        .exercises = exercises},
-                       [&](const tutorial::Options& o, tutorial::Report& r) {
-                         solve_all(o, r, study);
-                       });
+  return tutorial::run(
+      argc, argv, "34_solving_the_inequality",
+      "eight solvers of one inequality, down to epsilon = 0",
+      {.takes_epsilon = false,
+       .cells = 64,
+       .least_cells = 32,
+       .most_cells = 128,
+       .add = add_options,
+       .exercises = exercises},
+      [&](const tutorial::Options& o, tutorial::Report& r) { solve_all(o, r, study); });
 }

@@ -303,13 +303,14 @@ inline void write_price_list(const std::filesystem::path& folder, const Study& s
   }
   write_markdown(
       folder / "price_list.md",
-      fmt::format("Further solvers, of chapter 34. An entry has the number of unknowns, a "
-                  "colon, and the seconds at epsilon = 1 / 0.01 / 1e-6 / 0 (medians of {} "
-                  "runs). The relative error at the unknowns is below 1e-2 or 1e-3 at each "
-                  "of them. The seconds contain those of w and F where the solver needs "
-                  "them, and not mesh and assembly. `-` means that the solver has no answer, "
-                  "and `>` that the finest mesh is too coarse.",
-                  study.repeats),
+      fmt::format(
+          "Further solvers, of chapter 34. An entry has the number of unknowns, a "
+          "colon, and the seconds at epsilon = 1 / 0.01 / 1e-6 / 0 (medians of {} "
+          "runs). The relative error at the unknowns is below 1e-2 or 1e-3 at each "
+          "of them. The seconds contain those of w and F where the solver needs "
+          "them, and not mesh and assembly. `-` means that the solver has no answer, "
+          "and `>` that the finest mesh is too coarse.",
+          study.repeats),
       page);
 }
 

@@ -25,9 +25,7 @@ PetscErrorCode energy(Tao, Vec v, PetscReal* f, Vec g, void* context) {
   return code != 0 ? code : VecAXPY(g, -1, problem->rhs);
 }
 
-PetscErrorCode hessian(Tao, Vec, Mat, Mat, void*) {
-  return 0;
-}  // K itself, which does not change
+PetscErrorCode hessian(Tao, Vec, Mat, Mat, void*) { return 0; }  // K itself, which does not change
 
 Vector solved(const DistributedProblem& problem, const BoundedCorrection& correction,
               TaoMethod method, bool split, PetscEnd& end) {

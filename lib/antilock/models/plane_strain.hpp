@@ -16,7 +16,7 @@ struct BlockLoading {
   /// instead of on these edges. The patch test uses this.
   bool sliding = false;
   Profile gap = [](double) { return 0.0; };
-  Profile friction = {};   ///< g(x) >= 0, a force per length; empty: none
+  Profile friction = {};  ///< g(x) >= 0, a force per length; empty: none
   /// The weight of jump_form; 0: none (CR has zero modes then). Only CR has jumps to be penalised.
   double jump_weight = 1;
 };

@@ -1,6 +1,6 @@
 // What makes an element an element, and the numbering that joins them.
-#include "antilock/mesh/quadrature.hpp"
 #include "antilock/space/space.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::test::space_test::space_test {
