@@ -563,6 +563,28 @@ TEST(Results, GoToAFolderNamedAfterTheSceneWhereNoneIsGiven) {
   expect_interface(folder / "results/mine");
 }
 
+// A scene is run in the folder that it came in. A link in it may lead to results of another scene.
+TEST(Results, GoThroughNoLinkThatNobodyNamed) {
+  for (const std::string link : {"results", "results/mine"}) {
+    const TemporaryFolder folder, elsewhere;
+    std::ofstream(folder / "mine.toml") << scene("", structured(4));
+    std::filesystem::create_directories(std::filesystem::path(elsewhere / "mine"));
+    for (const std::string place : {"mine/solution.pvtu", "solution.pvtu"})
+      std::ofstream(elsewhere / place) << "another run";  // which a run would remove
+    if (link != "results") std::filesystem::create_directory(folder / "results");
+    std::filesystem::create_directory_symlink(elsewhere.path(), folder / link);
+    const std::string command = "cd " + in_shell(folder.path().string()) + " && " +
+                                in_shell(RUN_SCENE) + " mine.toml >/dev/null 2>err";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2) << link;
+    EXPECT_NE(contents(folder / "err").find(link + " is a link"), std::string::npos)
+        << contents(folder / "err");
+    EXPECT_EQ(contents(elsewhere / "solution.pvtu"), "another run");
+    EXPECT_EQ(contents(elsewhere / "mine/solution.pvtu"), "another run");
+    EXPECT_FALSE(std::filesystem::exists(elsewhere / "summary.json"));
+    EXPECT_FALSE(std::filesystem::exists(elsewhere / "mine/summary.json"));
+  }
+}
+
 TEST(Results, TheMeshOfARunServesAsAMeshFile) {
   const SceneRun first(scene(layer("1e-3") + contact, unstructured(8), cr));
   const SceneRun second(

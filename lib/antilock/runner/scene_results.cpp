@@ -349,7 +349,14 @@ std::filesystem::path default_results_folder(const std::filesystem::path& scene)
         "{}: --out: the name of the scene file without its extension, \"{}\", names no folder of "
         "its own; accepted: --out FOLDER, or another name",
         printable(scene.string(), 1000), name.string()));
-  return std::filesystem::path("results") / name;
+  const std::filesystem::path results = "results", folder = results / name;
+  for (const std::filesystem::path& part : {results, folder})
+    if (std::error_code absent; std::filesystem::is_symlink(part, absent))
+      throw Error(fmt::format(
+          "{}: --out: {} is a link, which came with the scene, perhaps, and no --out names it; "
+          "accepted: --out FOLDER",
+          printable(scene.string(), 1000), printable(part.string(), 1000)));
+  return folder;
 }
 
 void write_scene_results(const std::filesystem::path& folder, const SceneFile& file,

@@ -81,7 +81,9 @@ using ResultFiles = std::set<std::string>;
 ResultFiles result_files(const std::string& words);
 
 /// Returns the folder of the results where none is named: results/NAME for the scene file
-/// NAME.toml. Throws Error where NAME is no name of a folder, as in `...toml`, whose NAME is `..`.
+/// NAME.toml. Throws Error where NAME is no name of a folder, as in `...toml`, whose NAME is `..`,
+/// and where results or results/NAME is a link: a scene is run in the folder that it came in, and a
+/// link in it may lead to results of another one, which would be replaced and removed.
 std::filesystem::path default_results_folder(const std::filesystem::path& scene);
 
 /// Writes the results of a scene file into `folder`: summary.json, solution.csv, contact.csv (for a
