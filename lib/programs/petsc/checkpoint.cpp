@@ -10,14 +10,20 @@
 
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/core/input_file.hpp"
 
 namespace antilock::distributed {
 
 std::string question_of(const std::filesystem::path& scene, const std::filesystem::path& mesh) {
   std::uint64_t hash = 14695981039346656037U;  // FNV-1a
   for (const std::filesystem::path& path : {scene, mesh}) {
-    std::ifstream in(path, std::ios::binary);
-    for (std::istreambuf_iterator<char> byte(in), end; byte != end; ++byte)
+    if (path.empty()) continue;  // the mesh is made
+    const std::string name = printable(path.string(), 1000);
+    const auto in =  // devices and pipes may never end
+        path == scene ? open_file(path, name + ": file", "a scene file in TOML")
+                      : open_file(path, printable(scene.string(), 1000) + ": mesh.file: " + name,
+                                  "a MSH file, 2.2 or 4.1, ASCII");
+    for (std::istreambuf_iterator<char> byte(*in), end; byte != end; ++byte)
       hash = (hash ^ static_cast<unsigned char>(*byte)) * 1099511628211U;
   }
   return fmt::format("{:016x}", hash);

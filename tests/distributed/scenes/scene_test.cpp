@@ -2,6 +2,7 @@
 // ended and restarted.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -180,6 +181,21 @@ TEST(PetscScene, ResultsNeverReplaceTheMeshTheyCameFrom) {
     EXPECT_EQ(outcome.status, 2) << name;
     EXPECT_NE(outcome.err.find("would replace"), std::string::npos) << outcome.err;
     EXPECT_EQ(contents(folder / name), before);
+  }
+}
+
+// The scene is known by the bytes of its mesh file. Those of a device or a pipe may never end.
+TEST(PetscScene, AMeshFileThatNeverEndsIsRefused) {
+  for (const std::string name : {"/dev/zero", "pipe"}) {
+    std::string text = scene_text("petsc", "file", "P1", 0);
+    text.replace(text.find("cells = 0"), 9, "file = \"" + name + "\"");
+    const Runs runs(text);
+    ASSERT_EQ(::mkfifo((runs.folder / "pipe").c_str(), 0600), 0);
+    const int status = std::system(("timeout 60 " + runs.command(0, "results")).c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << name;
+    EXPECT_EQ(lines_about("is a folder, a device or a pipe", contents(runs.folder / "err")), 1)
+        << contents(runs.folder / "err");
+    EXPECT_FALSE(fs::exists(runs.results("results")));
   }
 }
 
