@@ -71,6 +71,7 @@ vtkSmartPointer<vtkPolyData> triangles_of(const std::filesystem::path& path,
     vtkIdType size = 0;
     const vtkIdType* corners = nullptr;
     grid.GetCellPoints(cell, size, corners);
+    if (size != 3) refuse(path, fmt::format("cell {} is a triangle with {} corners", cell, size));
     for (int i = 0; i < 3; ++i)
       if (corners[i] < 0 || corners[i] >= grid.GetNumberOfPoints())
         refuse(path, fmt::format("cell {} has a corner {}, but there are {} points", cell,

@@ -97,6 +97,29 @@ TEST(Chart, OfZerosIsRefusedInATrueSentence) {
             std::string::npos);
 }
 
+// VTK takes the number of corners from `offsets`, whatever `types` says: a triangle of one corner
+// was read beyond its end.
+TEST(Surface, OfATriangleWithoutThreeCornersIsRefused) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "layout_test.vtu";
+  std::ofstream(file)
+      << R"(<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian">
+<UnstructuredGrid><Piece NumberOfPoints="3" NumberOfCells="1">
+<PointData><DataArray type="Float64" Name="u" format="ascii">0 1 2</DataArray></PointData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0</DataArray>
+</Points><Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2</DataArray>
+<DataArray type="Int32" Name="offsets" format="ascii">1</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">5</DataArray></Cells>
+</Piece></UnstructuredGrid></VTKFile>)";
+  try {
+    plan_picture({{file, ""}}, {});
+    FAIL() << "is drawn";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("cell 0 is a triangle with 1 corner"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // vedo #212 and Sunny.jl #309: fields of 1e-200, whose numbers have exponents of three digits.
 TEST(ColourBar, OfTinyValuesStaysOnThePage) {
   for (const Range& range :
