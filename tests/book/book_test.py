@@ -314,6 +314,93 @@ CONTRAST = """
   return Object.keys(poor);"""
 
 
+class Predictions(Book):
+    page, fields = "01_domain", ".predictions input"
+
+    def setUp(self):
+        self.show(self.page)
+        self.run_script("localStorage.clear()")
+        self.show(self.page)
+
+    def tearDown(self):
+        self.run_script("try { localStorage.clear(); } catch {}")
+
+    def field(self, question):
+        selector = f".predictions input[data-question={question}]"
+        return self.browser.find_element("css selector", selector)
+
+    def seen(self, selector):
+        """The text of the element as it is laid out; empty where it is not."""
+        return self.run_script("""const part = document.querySelector(arguments[0]);
+          return part.getClientRects().length ? part.innerText : "";""", selector)
+
+    def test_a_prediction_is_kept_and_stands_beside_the_answer(self):
+        hidden = "return document.querySelector('.predicted').hidden"
+        self.assertEqual(self.run_script(hidden), True)
+        self.field("a").send_keys("more <b>", Keys.TAB, "less")  # the keyboard alone
+        answer = "You predicted: (a) more <b> (b) less"
+        for _ in range(2):  # as typed, and after the page was loaded again
+            shown = self.run_script("return document.querySelector('.predicted').textContent")
+            self.assertEqual(shown.strip(), answer)
+            self.assertEqual(self.run_script(hidden), False)
+            beside = self.run_script("""return document.querySelector('.predicted')
+              .nextElementSibling.textContent;""")
+            self.assertIn("(a) Neither more nor less", " ".join(beside.split()))
+            self.show(self.page)
+        self.show("02_meshes")  # another page has its own
+        self.assertEqual(self.field("a").get_property("value"), "")
+
+    def test_forget_forgets_and_keeps_the_focus(self):
+        self.field("a").send_keys("more", Keys.TAB, Keys.TAB, Keys.ENTER)  # (b), then the button
+        for _ in range(2):
+            self.assertEqual(self.field("a").get_property("value"), "")
+            self.assertTrue(self.run_script("return document.querySelector('.predicted').hidden"))
+            kept = "return Object.keys(localStorage).filter((key) => key.includes('prediction'))"
+            self.assertEqual(self.run_script(kept), [])
+            self.show(self.page)
+
+    def test_each_field_has_a_label(self):
+        names = self.run_script("""return [...document.querySelectorAll(arguments[0])]
+          .map((input) => input.labels[0]?.textContent.trim());""", self.fields)
+        self.assertEqual(names, ["Your prediction (a)", "Your prediction (b)"])
+
+    def test_paper_has_the_text(self):
+        self.field("a").send_keys("much more")
+        self.assertEqual(self.seen(".predictions .typed"), "")
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        try:
+            printed = self.seen(".predictions p").split()
+            self.assertEqual(printed, ["Your", "prediction", "(a)", "much", "more"])
+            self.assertIn("much more", self.seen(".predicted"))
+            drawn = "return document.querySelector(arguments[0]).getClientRects().length"
+            self.assertEqual(self.run_script(drawn, self.fields), 0)
+            self.assertEqual(self.run_script(drawn, ".predictions button"), 0)
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
+    def test_a_browser_that_keeps_nothing_shows_the_answer_all_the_same(self):
+        refuse = """Object.defineProperty(window, 'localStorage',
+          { get() { throw new DOMException('no'); } });"""
+        begin, end = "Page.addScriptToEvaluateOnNewDocument", "Page.removeScriptToEvaluateOnNewDocument"
+        script = self.browser.execute_cdp_cmd(begin, {"source": refuse})["identifier"]
+        try:
+            self.browser.get(f"{(BOOK / self.page).as_uri()}.html")
+            self.field("b").send_keys("less")
+            self.assertEqual(self.seen(".predicted").split(), ["You", "predicted:", "(b)", "less"])
+        finally:
+            self.browser.execute_cdp_cmd(end, {"identifier": script})
+
+    def test_without_scripts_the_page_is_as_it_was(self):
+        self.browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
+        try:
+            self.browser.get(f"{(BOOK / self.page).as_uri()}.html")
+            for part in self.browser.find_elements("css selector", ".predictions, .predicted"):
+                self.assertFalse(part.is_displayed())
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
+            self.browser.get("about:blank")
+
+
 class Search(Book):
     def test_answers_from_a_folder(self):
         for words, at_least, first in (("kernel", 3, "07_kernel.html"), ("Crouzeix", 3, "08_crouzeix_raviart.html"), ("complementarity", 1, ""),
@@ -603,6 +690,15 @@ class Run(Book):
                     self.assertEqual(self.run_script(SIDEWAYS), [])
                     self.assertEqual(self.said(), [])
                     self.shot(f"{page}_run_{width}", width)
+
+    def test_a_run_shows_the_predictions_of_the_page(self):
+        self.show("00_string_on_an_obstacle")
+        self.run_script("""const [a, b] = document.querySelectorAll(".predictions input");
+          a.value = "nine"; b.value = " four times ";""")
+        self.press("button[data-run]")
+        self.ended()
+        shown = self.run_script("return document.querySelector('.run-predicted').textContent")
+        self.assertEqual(shown, "You predicted: (a) nine; (b) four times")
 
     def test_an_exercise_answers_in_place(self):
         self.show("08_crouzeix_raviart")

@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tutorials/book"))
 from course import minutes  # noqa: E402
 from library import EXAMPLES, Library  # noqa: E402
-from literate import STILLS  # noqa: E402
+from literate import STILLS, BookError, with_predictions  # noqa: E402
 from pages import EXTRA, TEACHING  # noqa: E402
 
 CHAPTERS = {
@@ -48,6 +48,9 @@ int main() { return 0; }
 //
 // Needs: [00](../00_start/00_start.cpp) (all of it).
 //
+// **Predict.** (a) How many,
+// by (c) of a list? (b) And then?
+//
 // Words before the figure.
 // :live: mesh=layered cells=8
 //
@@ -56,6 +59,13 @@ int main() { return 0; }
 // ```
 // :live: in a listing is no figure
 // ```
+//
+// ## What came out
+//
+// Words of the run.
+//
+// First, (a) one,
+// and (b) two.
 //
 // ## Exercises
 //
@@ -246,6 +256,30 @@ class Pages(unittest.TestCase):
         self.assertNotIn("| `07_middle --exercise 1`", page)  # it stands in its place
         self.assertIn("does not run in a page", self.page("27_later"))
         self.assertNotIn("data-run", self.page("27_later"))
+
+    # ---- predictions
+
+    def test_a_prediction_has_a_field_per_question_and_stands_beside_the_answer(self):
+        page = self.page("07_middle", "html", "book")
+        fields = re.findall(r"<span>(Your[^<]*)</span> <input type=text data-question=(\w)", page)
+        self.assertEqual(fields, [("Your prediction (a)", "a"), ("Your prediction (b)", "b")])
+        self.assertRegex(page, r"(?s)And then\?</p>\s*"
+                               r"<div class=predictions data-page=07_middle hidden>.*Words before the")
+        self.assertRegex(page, r"(?s)Words of the run\.</p>\s*<div class=predicted hidden></div>\s*"
+                               r"<p>First, \(a\)")
+        self.assertNotIn("predict", self.page("00_start", "html", "book"))
+
+    def test_a_prediction_without_letters_has_one_field(self):
+        lines = ["**Predict.** How many?", "", "## What came out", "", "One."]
+        found = "\n".join(with_predictions(lines, "00_start"))
+        self.assertEqual(found.count("<input "), 1)
+        self.assertRegex(found, r'(?s)How many\?\n\n<div class="predictions".*What came out\n\n+'
+                                r'<div class="predicted" hidden></div>\n+One')
+
+    def test_a_prediction_without_an_answer_stops_the_build(self):
+        message = r'^00_start.cpp: no section "## What came out", which answers the predictions$'
+        with self.assertRaisesRegex(BookError, message):
+            with_predictions(["**Predict.** How many?", ""], "00_start")
 
     # ---- pictures and output
 

@@ -2,6 +2,51 @@
 addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((part) => { part.open = true; }));
 // What is wider than the page scrolls in itself, also by the keyboard.
 for (const part of document.querySelectorAll(".highlight pre, .table-wrapper")) part.tabIndex = 0;
+// The reader's predictions are kept by page and question, and shown again where the page answers
+// them. A browser that keeps nothing (a private window, a setting) throws; then the text lasts as
+// long as the page.
+for (const box of document.querySelectorAll(".predictions")) {
+  const inputs = [...box.querySelectorAll("input")], forget = box.querySelector("button");
+  const shown = document.querySelector(".predicted");
+  const key = (input) => `antilock-prediction/${box.dataset.page}/${input.dataset.question}`;
+  const stored = (action) => {
+    try { return action(localStorage); } catch { return null; }
+  };
+  const part = (name, text) => Object.assign(document.createElement(name), { textContent: text });
+  const typed = (input) => input.value.trim();
+
+  function show() {
+    const given = inputs.filter(typed);
+    for (const input of inputs) {
+      input.closest("p").querySelector(".typed").textContent = typed(input);
+    }
+    forget.disabled = !given.length;
+    shown.hidden = !given.length;
+    shown.replaceChildren(part("b", "You predicted: "));
+    for (const input of given) {
+      const letter = input.dataset.question;
+      shown.append(part("span", letter ? `(${letter}) ` : ""), part("q", typed(input)), " ");
+    }
+  }
+  for (const input of inputs) {
+    input.value = stored((store) => store.getItem(key(input))) ?? "";
+    input.addEventListener("input", () => {
+      if (typed(input)) stored((store) => store.setItem(key(input), input.value));
+      else stored((store) => store.removeItem(key(input)));
+      show();
+    });
+  }
+  forget.addEventListener("click", () => {
+    for (const input of inputs) {
+      input.value = "";
+      stored((store) => store.removeItem(key(input)));
+    }
+    show();
+    inputs[0].focus();  // a disabled button loses the focus of the keyboard
+  });
+  show();
+  box.hidden = false;
+}
 // An equation or a term that a link names shows itself beside it: for a pointer that hovers, and for the keyboard.
 (() => {
   const folder = document.currentScript.src.replace(/[^/]*$/, ""), page = location.pathname.split("/").pop() || "index.html";

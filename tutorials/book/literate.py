@@ -139,6 +139,52 @@ def with_exercises(lines, commands, takes):
     return out, list(left.values())
 
 
+def paragraph_end(lines, start):
+    """The index behind the paragraph that begins at `start`."""
+    at = start
+    while at < len(lines) and lines[at].strip() and not PLACE.match(lines[at]):
+        at += 1
+    return at
+
+
+def prediction_fields(stem, questions):
+    """A field for each question. Without a script it stays hidden; book.js shows it."""
+    out = [f'<div class="predictions" data-page="{stem}" hidden>']
+    for letter in questions:
+        label = f"Your prediction ({letter})" if letter else "Your prediction"
+        out.append(f'<p><label><span>{label}</span> <input type="text" data-question="{letter}"'
+                   ' autocomplete="off"></label><span class="typed"></span></p>')
+    forget = ('<p><button type="button">forget</button> '
+              "<span>This browser keeps the text, and shows it beside the answers.</span>"
+              "</p></div>")
+    return ["", *out, forget, ""]
+
+
+def with_predictions(lines, stem):
+    """A field behind the paragraph `**Predict` for each (a), (b), ... in it, and the place in
+    `## What came out` that shows the text again, before the paragraph that answers (a)."""
+    start = next((i for i, line in enumerate(lines) if line.startswith("**Predict")), None)
+    if start is None:
+        return lines
+    end = paragraph_end(lines, start)
+    marks = re.findall(r"(?<!\S)\(([a-d])\)", " ".join(lines[start:end]))
+    questions = []
+    for letter in marks:  # a letter out of this order is none of the questions
+        if letter == "abcd"[len(questions):][:1]:
+            questions.append(letter)
+    if "## What came out" not in lines[end:]:
+        raise BookError(f'{stem}.cpp: no section "## What came out", which answers the predictions')
+    came_out = lines.index("## What came out", end)
+    first = r"(?:.* )?\(a\)(?: |$)" if questions else ".*"
+    behind = came_out + 1
+    answer = next((i for i in range(behind, len(lines)) if re.match(first, lines[i])), behind)
+    while answer > behind and lines[answer - 1].strip() and not PLACE.match(lines[answer - 1]):
+        answer -= 1
+    place = ["", '<div class="predicted" hidden></div>', ""]
+    fields = prediction_fields(stem, questions or [""])
+    return [*lines[:end], *fields, *lines[end:answer], *place, *lines[answer:]]
+
+
 def without_answer(lines, commands, paper):
     """The numbers of the exercises in the list that no command answers, and no `**3.**` of the answers on paper."""
     listed = re.findall(r"(?m)^(\d+)\. ", "\n".join(lines).partition("## Exercises")[2])
@@ -151,7 +197,7 @@ def paragraph(prose, words):
     start = next((i for i, line in enumerate(prose) if line.startswith(words)), None)
     if start is None:
         return prose, []
-    end = next((i for i in range(start, len(prose)) if not prose[i].strip() or PLACE.match(prose[i])), len(prose))
+    end = paragraph_end(prose, start)
     return prose[:start] + prose[end:], prose[start:end]
 
 

@@ -17,7 +17,7 @@ from PIL import Image
 
 from course import read as read_course
 from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, fence, folded, live_figure, runs_in_the_page, signs,
-                      with_exercises, without_answer)
+                      with_exercises, with_predictions, without_answer)
 from katex import TAG
 from library import Library
 from links import linked, term_anchor
@@ -211,7 +211,8 @@ class Book:
     def chapter(self, source):
         """The first picture that no line places stands on top. Where a page places pictures, it places all others of its own."""
         stem, page = source.stem, self.pages[source.stem]
-        body, names, output = self.placed(self.linked(page.body, source.parent, terms=self.terms), stem)
+        lines = with_predictions(page.body, stem)
+        body, names, output = self.placed(self.linked(lines, source.parent, terms=self.terms), stem)
         shots = [row for row in self.pictures_of(stem) if row["image"] not in names]
         if names:
             shots = [row for row in shots if row["chapters"] == [stem]]  # one of two chapters may leave their picture to the other

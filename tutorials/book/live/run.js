@@ -98,6 +98,14 @@ antilock.vtuSurface = (where, name, bytes) => {
   draw();
 };
 
+/// The predictions of this page that the reader typed in (book.js keeps them), as one line.
+antilock.predictions = () => {
+  const inputs = [...document.querySelectorAll(".predictions input")];
+  const typed = inputs.filter((input) => input.value.trim());
+  const letter = (input) => (input.dataset.question ? `(${input.dataset.question}) ` : "");
+  return typed.map((input) => letter(input) + input.value.trim()).join("; ");
+};
+
 // ---- The console of a page
 
 for (const box of document.querySelectorAll("#run")) {
@@ -219,10 +227,11 @@ for (const box of document.querySelectorAll("#run")) {
   for (const button of document.querySelectorAll("button[data-run]")) {
     button.disabled = false;
     button.addEventListener("click", () => {
-      const options = button.dataset.run, guess = button.closest(".predict")?.querySelector("input");
+      const options = button.dataset.run, exercise = button.closest(".predict");
+      const guess = exercise ? exercise.querySelector("input").value : antilock.predictions();
       at("#run-line").value = options;
-      at(".run-predicted").hidden = !guess?.value;
-      at(".run-predicted").textContent = guess?.value ? `You predicted: ${guess.value}` : "";
+      at(".run-predicted").hidden = !guess;
+      at(".run-predicted").textContent = guess ? `You predicted: ${guess}` : "";
       (button.closest("#run, .predict, .table-wrapper, table") ?? box).after(console_);
       run(options.split(/\s+/).filter(Boolean), []);
     });
