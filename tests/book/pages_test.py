@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tutorials/book"))
 from course import minutes  # noqa: E402
 from library import EXAMPLES, Library  # noqa: E402
-from literate import STILLS, BookError, with_predictions  # noqa: E402
+from literate import STILLS, BookError, code, with_predictions  # noqa: E402
 from pages import EXTRA, TEACHING  # noqa: E402
 
 CHAPTERS = {
@@ -256,6 +256,36 @@ class Pages(unittest.TestCase):
         self.assertNotIn("| `07_middle --exercise 1`", page)  # it stands in its place
         self.assertIn("does not run in a page", self.page("27_later"))
         self.assertNotIn("data-run", self.page("27_later"))
+
+    # ---- code
+
+    def test_the_lines_that_judge_a_run_are_folded(self):
+        program = """void judge(int n, Report& report);
+void judge(int n,
+           Report& report) {
+  report.claim(n == 1, "one");
+}
+void run(Report& report) {
+  for (int n : {1, 2, 3, 4}) {
+    measure(n);
+    draw(n);
+    print(n);
+    report.claim(true, "inside a longer statement");
+  }
+  int shown = 2;
+  // why
+  if (shown == 2)
+    report.claim(true, "two");
+  judge(1, report);
+}
+int behind;""".splitlines()
+        page = "\n".join(code(program))
+        parts = re.split(r"<details[^>]*><summary>The verdict: (\d+) lines</summary>(.*?)</details>", page, flags=re.S)
+        self.assertEqual([parts[1], parts[4]], ["4", "5"])
+        for words, part in (("int n, Report& report);", 0), ("int n,\n", 2), ("longer statement", 3), ("int shown", 3),
+                            ("// why", 5), ("judge(1", 5), ("int behind", 6)):
+            self.assertIn(words, parts[part])
+        self.assertEqual(sum(line.strip() in page for line in program), len(program))  # nothing is lost
 
     # ---- predictions
 

@@ -3,6 +3,7 @@
 - A comment at the margin is prose (Markdown, formulas between dollars); everything else is code.
 - An indented comment belongs to the code, unless it begins with a heading (`### Solve`): then it is prose too.
 - `### Solve` in the C++ finds `// ### Solve` in the FreeFEM twin, which is folded under it.
+- The lines that judge a run are folded: the functions `judge`, and other functions from their first claim on.
 - `Run: COMMAND    what it does` lines become a table with buttons; includes are folded away.
 - `:live: string` places a live figure, `:live: mesh=layered cells=32` the one of P1 and Crouzeix-Raviart with its settings.
 - `:figure: NAME ...` places pictures of figures/table.toml, `:output:` what the program printed: pages.py puts them in.
@@ -62,6 +63,59 @@ def fence(language, lines):
 
 def folded(summary, lines, kind):
     return [f'<details class="{kind}"><summary>{html.escape(summary)}</summary>', "", *lines, "", "</details>", ""]
+
+
+CLAIM = re.compile(r"\breport\.claim\w*\(")
+
+
+def function_end(block, start):
+    """The index behind the function that is open or begins at `start`: its brace at the margin, or the end of the code."""
+    return next((i + 1 for i in range(start, len(block)) if block[i] == "}"), len(block))
+
+
+def judges(block, start):
+    """Whether a function that judges a run is defined here; a declaration ends with a semicolon."""
+    if not re.match(r"void judge\w*\(", block[start]):
+        return False
+    opening = next((line for line in block[start:] if line.endswith(("{", ";"))), ";")
+    return opening.endswith("{")
+
+
+def first_of_claim(block, at):
+    """The line at which the statement of a claim begins, with the comment above it; None inside a longer statement."""
+    start = at
+    while start > 0 and block[start].startswith("   "):
+        start -= 1
+    if at - start > 3 or not block[start].startswith("  "):
+        return None
+    while start > 0 and block[start - 1].startswith("  // "):
+        start -= 1
+    return start
+
+
+def verdicts(block):
+    """The ranges of lines that judge a run: functions `judge`, and others from their first claim on."""
+    at = 0
+    while at < len(block):
+        start = at if judges(block, at) else None
+        if start is None and CLAIM.search(block[at]):
+            start = first_of_claim(block, at)
+        if start is None:
+            at += 1
+            continue
+        at = function_end(block, at)
+        yield start, at
+
+
+def code(block):
+    """The fences of a program; the lines that judge the run are folded."""
+    out, at = [], 0
+    for start, end in verdicts(block):
+        if any(line.strip() for line in block[at:start]):
+            out += fence("cpp", block[at:start])
+        out += folded(f"The verdict: {end - start} lines", fence("cpp", block[start:end]), "verdict")
+        at = end
+    return out + (fence("cpp", block[at:]) if any(line.strip() for line in block[at:]) else [])
 
 
 def step_name(heading):
@@ -247,7 +301,7 @@ class Page:
                 if any(line.startswith("#include") for line in block[:head]):
                     self.body += folded("Headers", fence("cpp", block[:head]), "headers")
                     block = block[head:]
-                self.body += fence("cpp", block) if block else []
+                self.body += code(block)
                 continue
             if self.title is None:
                 block = self.header(source, block, draft)
