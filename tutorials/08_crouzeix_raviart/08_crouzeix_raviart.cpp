@@ -82,6 +82,32 @@
 
 using namespace antilock;
 
+// **The element in C++.** Let $λ_i$ be the hat function of corner $i$ on a triangle. The
+// basis function of the edge opposite to it is $1 - 2 λ_i$: on this edge $λ_i = 0$, and at
+// the two other midpoints $λ_i = ½$. These two lines are the whole difference from P1.
+Eigen::Array3d basis(const Eigen::Array3d& lambda) { return 1 - 2 * lambda; }
+constexpr double derivative = -2;  // of the basis function i by lambda_i
+
+// The integrals are those of chapter 05, with these derivatives and a value per edge.
+struct Forms {
+  double moderate = 0, stiff = 0;  // a_1(u, v) and a_y^-(u, v), triangle by triangle
+};
+Forms integrate(const Space& space, const Eigen::VectorXd& u, const Eigen::VectorXd& v) {
+  const TriangleMesh& mesh = space.mesh();
+  Forms forms;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::RowVector3i edges = mesh.triangle_edges.row(t);  // edge i opposite to i
+    const Eigen::Matrix<double, 3, 2> gradients =
+        derivative * barycentric_gradients(mesh, t);
+    const Eigen::RowVector2d du = u(edges).transpose() * gradients;
+    const Eigen::RowVector2d dv = v(edges).transpose() * gradients;
+    forms.moderate += mesh.area(t) * du.x() * dv.x();
+    double& across = mesh.region[t] == Region::body ? forms.moderate : forms.stiff;
+    across += mesh.area(t) * du.y() * dv.y();
+  }
+  return forms;
+}
+
 // $I_h v$: the mean over each edge, by Gauss's rule of three points on 16 parts of it.
 Eigen::VectorXd edge_means(const Space& space, const Field& v) {
   const TriangleMesh& mesh = space.mesh();
@@ -144,6 +170,16 @@ void nonconforming(const tutorial::Options& options, tutorial::Report& report) {
   tutorial::draw_basis_functions(options.out);
 
   const double h = 1.0 / options.cells, jump = tutorial::largest_jump(space, solution.u);
+  const Eigen::Array3d midpoint(0, 0.5, 0.5);  // of edge 0
+  const Eigen::VectorXd v =
+      space.dof_coordinates().col(0).cwiseProduct(space.dof_coordinates().col(1));
+  const Forms forms = integrate(space, v, v);
+  const double moderate = v.dot(problem.a1 * v);
+  const double stiff = (problem.b * v).cwiseAbs2().dot(problem.m);
+  report.claim((basis(midpoint) == Eigen::Array3d(1, 0, 0)).all() &&
+                   std::abs(forms.moderate / moderate - 1) < 1e-12 &&
+                   std::abs(forms.stiff / stiff - 1) < 1e-12,
+               "the two lines of the element give the integrals of the matrices (proved)");
   // 6e-9 of the truth's table and (h/16)^3 of Gauss's rule where u'' jumps, both over an
   // edge h = 1/8 ... 1/64: 1e-7
   report.claim_within(lemma.max("strain"), 0, 1e-6,

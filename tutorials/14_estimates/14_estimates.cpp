@@ -112,6 +112,7 @@
 #include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/measure/residual.hpp"
 #include "course/course.hpp"
+#include "course/named_row.hpp"
 
 using namespace antilock;
 using tutorial::Exact;
@@ -148,12 +149,20 @@ Table both_sides(const Method& method, int cells,
                                             AdmissibleSet::k_h, r)
                              .value,
                  second = -r.dot(u_h.u);
-    rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells,
-              errors.h1, first + second, second, -(r - work).dot(u_h.u),
-              errors.h1 * errors.h1 / (first + second),
-              conforming ? 0 : dual_norm(sweep.problem(), norm, r - work),
-              energy(sweep.problem(), u_h) - exact.solution.energy(),
-              0.5 * errors.energy * errors.energy - second});
+    tutorial::add_row(
+        rows, {{"element", method.element->name()},
+               {"mesh", method.family.name},
+               {"epsilon", exact.epsilon},
+               {"cells", cells},
+               {"h", 1.0 / cells},
+               {"h1", errors.h1},
+               {"right", first + second},
+               {"second", second},
+               {"jumps", -(r - work).dot(u_h.u)},
+               {"constant", errors.h1 * errors.h1 / (first + second)},
+               {"consistency", conforming ? 0 : dual_norm(sweep.problem(), norm, r - work)},
+               {"excess", energy(sweep.problem(), u_h) - exact.solution.energy()},
+               {"identity", 0.5 * errors.energy * errors.energy - second}});
   }
   return rows;
 }

@@ -98,6 +98,7 @@
 #include <numbers>
 
 #include "antilock/certificate/exact_errors.hpp"
+#include "course/named_row.hpp"
 #include "support.hpp"
 
 using namespace antilock;
@@ -143,14 +144,26 @@ Table certify_both(const MeshFamily& family, int cells,
                    width = found.energy_upper - found.energy_lower,
                    w = std::pow(found.constitutive_error, 2) / 2 +
                        found.contact_work;  // without oscillation
-      rows.add({element, family.name, exact.epsilon, cells, 1.0 / cells, found.energy_lower,
-                found.energy_upper, width, bound, error, found.layer_share,
-                std::pow(errors.displacement, 2) / (2 * w),
-                std::pow(errors.flux, 2) / (2 * w),
-                tutorial::works(cr, flux, companion, exact) / w, bound / error,
-                std::min(j - found.energy_lower, found.energy_upper - j),
-                std::sqrt(2 * width) / error, j - j_cr,
-                (j_cr - found.energy_lower) * cells * cells});
+      tutorial::add_row(
+          rows, {{"element", element},
+                 {"mesh", family.name},
+                 {"epsilon", exact.epsilon},
+                 {"cells", cells},
+                 {"h", 1.0 / cells},
+                 {"lower", found.energy_lower},
+                 {"upper", found.energy_upper},
+                 {"width", width},
+                 {"bound", bound},
+                 {"error", error},
+                 {"layer_share", found.layer_share},
+                 {"displacement", std::pow(errors.displacement, 2) / (2 * w)},
+                 {"stress", std::pow(errors.flux, 2) / (2 * w)},
+                 {"works", tutorial::works(cr, flux, companion, exact) / w},
+                 {"ratio", bound / error},
+                 {"inside", std::min(j - found.energy_lower, found.energy_upper - j)},
+                 {"width_ratio", std::sqrt(2 * width) / error},
+                 {"cr_below", j - j_cr},
+                 {"shift", (j_cr - found.energy_lower) * cells * cells}});
     };
     add("CR", of_cr, strip);
     add("P1", of_p1, v);

@@ -114,6 +114,7 @@
 // $J$. There $e_h$ finds a work that a smooth $u$ would not do. Hence (*Proposition E*) the
 // part $S^-$ of $|e|_a$ in the layer is at least of size $|J| k^{3/4}$ as $h → 0$.
 
+#include "course/named_row.hpp"
 #include "support.hpp"
 
 using namespace antilock;
@@ -139,10 +140,18 @@ Table solve_both(const std::string& family, int cells,
     // Steps 2 to 5: means of the flux of u over triangles and edges, against those of u_h.
     const tutorial::Parts part =
         tutorial::take_apart(exact, {cr, below.problem(), below.solve()});
-    rows.add({family, exact.epsilon, cells, cr.mesh().diameter(),
-              std::hypot(part.interpolation, part.discrete),
-              exact.errors(linear, p1_solution).energy, part.interpolation, part.discrete,
-              part.layer, part.flux, part.contact, part.product});
+    tutorial::add_row(rows, {{"mesh", family},
+                             {"epsilon", exact.epsilon},
+                             {"cells", cells},
+                             {"h", cr.mesh().diameter()},
+                             {"CR", std::hypot(part.interpolation, part.discrete)},
+                             {"P1", exact.errors(linear, p1_solution).energy},
+                             {"interpolation", part.interpolation},
+                             {"discrete", part.discrete},
+                             {"layer", part.layer},
+                             {"flux", part.flux},
+                             {"contact", part.contact},
+                             {"product", part.product}});
   }
   return rows;
 }

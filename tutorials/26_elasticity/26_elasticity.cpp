@@ -41,11 +41,12 @@
 // more:
 //
 // - *crossed triangles*: each square is cut by both diagonals, and one of its four
-//   conditions follows from the other
-// three;
+//   conditions follows from the other three;
 // - *CR*, three unknowns per triangle. With $e(u)$ in place of $∇u$ it has motions without
-//   energy that are not rigid;
-// the jumps over edges, penalised with weight 1, remove them (Hansbo and Larson 2003);
+//   energy that are not rigid: the triangles are joined at the midpoints of their edges
+//   alone, as by hinges, and neighbours can turn against each other (picture). Then $e(u)$,
+//   which does not see a rotation, is 0 on each triangle. The jumps over edges, penalised
+//   with weight 1, remove these motions (Hansbo and Larson 2003);
 // - *Kouhia–Stenberg* (1995): P1 for one component, CR for the other. It needs no jumps.
 //
 // Two checks need no reference: a *patch test* (a uniform strain must come out exactly on
@@ -71,6 +72,39 @@ double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the obstacle below
 // be penalised or not.
 //
 // ### Forms
+// The integrals in C++, for a displacement with the unknowns `u`. On a triangle of P1 or CR
+// its gradient is a matrix of four numbers: a row per component, summed over three basis
+// functions. `assemble` has the same sums as matrices, and a verdict compares both.
+struct Forms {
+  double shear = 0, volume = 0;  // a_1(u, u) without jumps, and a_0(u, u)
+};
+Forms integrate(const VectorSpace& space, const Eigen::VectorXd& u) {
+  const TriangleMesh& mesh = space.x.mesh();
+  const Eigen::Vector3d centre = Eigen::Vector3d::Constant(1.0 / 3);
+  Forms forms;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::Matrix<double, 3, 2> hats = barycentric_gradients(mesh, t);
+    const Eigen::VectorXi in_x = space.x.cell_dofs().row(t);
+    const Eigen::VectorXi in_y = space.y.cell_dofs().row(t).array() + space.x.size();
+    Eigen::Matrix2d gradient;
+    gradient << u(in_x).transpose() * space.x.element().derivative(centre) * hats,
+        u(in_y).transpose() * space.y.element().derivative(centre) * hats;
+    const Eigen::Matrix2d strain = (gradient + gradient.transpose()) / 2;  // e(u)
+    forms.shear += mesh.area(t) * 2 * strain.squaredNorm();                // 2 e(u) : e(u)
+    forms.volume += mesh.area(t) * std::pow(gradient.trace(), 2);          // (div u)^2
+  }
+  return forms;
+}
+
+// How far the integrals of a field are from those of the matrices.
+double apart(const VariationalInequality& problem, const VectorSpace& space) {
+  Eigen::VectorXd u(space.size());
+  u << space.x.dof_coordinates().rowwise().prod(), space.y.dof_coordinates().col(0);
+  const Forms forms = integrate(space, u);
+  return std::max(std::abs(forms.shear / u.dot(problem.a1 * u) - 1),
+                  std::abs(forms.volume / (problem.b * u).cwiseAbs2().dot(problem.m) - 1));
+}
+
 // $u = (0, -0.1)$ on top, $u_y ≥ -$gap below. It fills $A_1$, $B$, $M$ and the bounds; the
 // rest is the scalar problem's.
 VariationalInequality pushed(const Rubber& rubber, const VectorSpace& space,
@@ -141,7 +175,7 @@ void judge_smooth(const Table& errors, tutorial::Report& report) {
 
 void push(const tutorial::Options& options, tutorial::Report& report) {
   Table checks({"element", "unknowns", "kernel", "patch", "zero_modes", "without_jumps",
-                "bulge left", "right"});
+                "bulge left", "right", "forms"});
   Table forces({"element", "lambda", "epsilon", "force", "corrections", "percent", "known",
                 "locks"});
   for (const Rubber& rubber : tutorial::rubbers(options.cells)) {
@@ -178,7 +212,8 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
                 tutorial::zero_modes(problem),
                 rubber.jumps ? TableEntry(tutorial::zero_modes(pushed(rubber, space, 0)))
                              : TableEntry(""),
-                tutorial::bulge(x, solution.u, 0), tutorial::bulge(x, solution.u, 1)});
+                tutorial::bulge(x, solution.u, 0), tutorial::bulge(x, solution.u, 1),
+                apart(pushed(rubber, space, 0), space)});
   }
   report.stage("a smooth field that keeps the volume");
   const Table smooth = smooth_errors();
@@ -196,6 +231,9 @@ void judge(const Table& checks, const Table& forces, int cells, tutorial::Report
   report.claim(checks.max("patch") < 1e-12,
                "(proved) patch test: every method has the uniform strain to {:.0e}",
                checks.max("patch"));
+  report.claim(checks.max("forms") < 1e-12,
+               "(proved) u = (x y, x): the integrals are those of the matrices to {:.0e}",
+               checks.max("forms"));
   report.claim(
       jumping.number("without_jumps") == 2 * cells && checks.max("zero_modes") == 0,
       "(observed) motions of no energy: {} = 2n without jumps, {} in every method here",
