@@ -59,6 +59,7 @@
 // is vertical, the two equations are one: the value there is shared, and the slope $b$ may
 // change. Triangles that are tied to the same triangle are tied to each other. So the layer
 // falls into groups, and there is one pair $(a, b)$ per group.
+// :figure: tied_triangles
 //
 // **Structured.** Each column is a group, since its triangles share horizontal and diagonal
 // edges. The function may bend at each vertical line. It is 0 at both ends, so $n$ columns

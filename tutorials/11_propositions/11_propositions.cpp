@@ -48,6 +48,8 @@
 //
 // $$ ‖u^ε-u_h^ε‖_h ≤ ‖u^ε-u^0‖ + ‖u^0-u_h^0‖_h + ‖u_h^0-u_h^ε‖_h. \tag{18} $$
 //
+// :figure: limit_square
+//
 // The first step is Theorem 1, and no mesh is in it. The second is Proposition 2, and no ε
 // is in it. Only the third holds both, and is new. Its proof runs along the three steps of
 // Theorem 1.

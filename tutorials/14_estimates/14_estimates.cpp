@@ -36,6 +36,7 @@
 // This is an identity, for every $v$, also for one that jumps. The excess of energy has two
 // parts: half the squared distance, and the work of the pressure where $v$ does not touch
 // but should.
+// :figure: energy_line
 //
 // ## Theorem 2, derived
 //

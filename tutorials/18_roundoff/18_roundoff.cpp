@@ -85,6 +85,7 @@
 // Those that meet a side are held there, those from the right half of $Σ$ reach $Γ_C$ and
 // move. A mesh with cells of $h × 2h$ in the layer has its diagonals along them, which are
 // columns for P1. On the structured and the unstructured mesh no edge follows them.
+// :figure: stiff_lines
 
 #include <Eigen/CholmodSupport>
 

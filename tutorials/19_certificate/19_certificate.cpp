@@ -94,6 +94,7 @@
 // **The function of $K$.** From P1 on the same mesh; then the bound is large where P1
 // locks. Or from the *strip*: averages of $u_h$ in the body, and a small P1 problem on
 // columns extruded below $Σ$, on which P1 does not lock (chapter 02).
+// :figure: strip
 
 #include <numbers>
 

@@ -113,6 +113,7 @@
 // as a test function at ε = 0. Let $w$ be a bend at the place where $∂_{xx} u$ jumps by
 // $J$. There $e_h$ finds a work that a smooth $u$ would not do. Hence (*Proposition E*) the
 // part $S^-$ of $|e|_a$ in the layer is at least of size $|J| k^{3/4}$ as $h → 0$.
+// :figure: bend
 
 #include "course/named_row.hpp"
 #include "support.hpp"

@@ -49,6 +49,8 @@
 //   with weight 1, remove these motions (Hansbo and Larson 2003);
 // - *Kouhia–Stenberg* (1995): P1 for one component, CR for the other. It needs no jumps.
 //
+// :figure: hinges
+//
 // Two checks need no reference: a *patch test* (a uniform strain must come out exactly on
 // any mesh) and the number of motions without energy. The reference of the contact force is
 // Taylor–Hood, P2 with a continuous P1 pressure, on graded meshes

@@ -58,6 +58,8 @@
 // function per edge, along τ, 0 on the two other edges. It sets the mean of its edge: for
 // every P1 part again one θ without shear.
 //
+// :figure: plate_elements
+//
 // ## Why both converge uniformly
 //
 // [Chapter 28](../28_mixed/28_mixed.cpp) proves Theorem 4 for an $a_{0h}$ under four

@@ -31,6 +31,7 @@
 // To choose the stresses is to choose what is averaged. If they are constant on groups of
 // triangles, the projection is the mean over each group. In the library these means are the
 // rows of $B$. Small groups ask for more, large for less.
+// :figure: groups
 //
 // ## Theorem 4 for another stiff form
 //
