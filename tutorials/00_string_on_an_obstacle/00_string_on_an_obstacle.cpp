@@ -132,8 +132,11 @@ struct Result {
 //
 // It does repeat itself. A force upwards at one node lowers no other: $A$ is an *M-matrix*
 // (no entry off its diagonal is positive, none of its inverse negative). From the second
-// guess on, each shape is the one before without the pull of the nodes that were let go,
-// and so above it: no node comes back, the set shrinks. Other matrices may cycle.
+// guess on, the nodes that are let go are those with $λ_i < 0$: the floor pulled them. The
+// next shape is in balance without these pulls. So $A (u_{new} - u_{old})$ is their
+// opposite, which is not negative, at the nodes that are free now, and at the others $u$
+// stays on the floor. As the inverse has no negative entry, $u_{new} ≥ u_{old}$: no node
+// comes back, and the set shrinks. Other matrices may cycle.
 Result active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   const int n = static_cast<int>(s.b.size());
   Result result;

@@ -44,8 +44,8 @@
 // $Σ$ the body leaves $∂_n u^+ (v - u)$ and the layer, whose outward normal is $-n$, leaves
 // $-ε^{-1} ∂_n u^- (v - u)$: they cancel, by the second line. Where the body or the layer
 // is clamped, both displacements are 0. On the side of the obstacle one term is left, the
-// work of the pressure. It stands beside the load. This work is not negative: by the third
-// line the pressure does no work on $u$ and is nowhere negative, and $v$ is nowhere
+// work of the pressure. It is added to that of the load. This work is not negative: by the
+// third line the pressure does no work on $u$ and is nowhere negative, and $v$ is nowhere
 // negative either. Leave it out, and the equation becomes an inequality:
 //
 // $$ ε^{-1} ∫_{Γ_{C,ε}} ∂_n u (v - u) = ε^{-1} ∫_{Γ_{C,ε}} (∂_n u) v ≥ 0. $$

@@ -222,8 +222,9 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
 //
 // (b) By the stress $p = ε^{-2} ∂_y u$, which is *not* small: a tiny slope times a huge
 // stiffness is a finite force. Its straight line begins at the pull of the body and ends at
-// $-λ$, which is 0 where nothing touches. Where the layer is free, all of the pull is
-// turned sideways, into the ridge.
+// $-λ$, which is 0 where nothing touches. Where the layer is free, none of the pull arrives
+// at the bottom. There the layer is a string: by $∂_y p = -u''$ the pull bends the ridge,
+// and the tension of the ridge carries it along $x$ to the clamped end and to the contact.
 // :figure: stress
 //
 // ## Exercises

@@ -41,8 +41,10 @@
 // depends on where in the element the jump lies. And CR asks $v ≥ 0$ at midpoints alone, so
 // its contact may end half an element too early or too late. Both make the error rough in
 // $h$: the slope from one mesh to the next is then anywhere between about 1.4 and more than
-// 2. (For $h ≪ ε$ the power $r^{3/2}$ must bring it down to 3/2 at last. For $ε ≪ h$ no
-// such law is behind it.)
+// 2. (For $h ≪ ε$ many elements lie within the distance $ε$, where $u^ε$ is like $r^{3/2}$,
+// and the slope must come down to 3/2 at last. For $ε ≪ h$ all of this part lies in one
+// element, the others see a solution with a bounded second derivative, and no such law is
+// behind the slope.)
 //
 // **P1 against CR.** Both gradients are constant per triangle. That of $I_h u$ for CR is
 // the mean of $∇u$, the best constant (chapter 08). So no function that is affine per

@@ -33,8 +33,12 @@
 // excluded. So locked P1 has a limit as well. The order is 2 for every method. For the
 // exact solution it was 3/2, because of the waves $k$ above $1/ε$, which the layer answers
 // in another way (chapter 10). A mesh has no waves beyond $1/h$. So once ε is below $h$
-// there are none of these. (For locked P1 ε must be below its wall, too: chapter 06.) Each
-// wave that the mesh has is changed by a share like $ε^2$, and so is their sum.
+// there are none of these. (For locked P1 ε must be below its wall, too: chapter 06.)
+//
+// Why 2? The layer answers a wave $\sin ax$ with the stiffness $(a/ε) \tanh εa$ (chapter
+// 04), which is $a^2 (1 - (εa)^2/3 + ...)$. A mesh has waves up to $a = π/h$. For each of
+// them the limit $a^2$ is missed by a share of at most $(επ/h)^2$. As $h$ is fixed, each
+// share is like $ε^2$, and a sum of finitely many such terms is so, too.
 //
 // **Proposition 2: $h$ to 0 at fixed ε, and at ε = 0.** If $K_h$ approaches $K$, then
 // $u_h^ε → u^ε$. If $K_{0h}$ approaches $K_0$, then $u_h^0 → u^0$. (Both are Theorem 3 of

@@ -15,8 +15,8 @@
 //
 // **Predict.** Theorem 2 bounds the error by how near $K_h$ comes to $u$, times a constant.
 // (a) The error of locked P1 stays. Does the distance from $u$ to $K_h$ stay as well? (b)
-// The theorem holds in the norm of the energy, too, where $M = α = 1$ and $C = 2$ will do.
-// So where does the locking hide now?
+// The theorem can be stated in the norm of the energy, $a(v, v)^{1/2}$, as well. Then the
+// constant is 2, for every method and every ε. So where does the locking hide now?
 //
 // ## The work of the contact pressure
 //

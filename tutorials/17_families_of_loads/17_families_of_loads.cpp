@@ -49,8 +49,8 @@
 // *Lanczos iteration* finds both from products with $S - S_h$ alone, each of them one
 // solve. Loads are sums of the orthonormal waves $2 \sin kπx \cos μ_m y$,
 // $μ_m = (m - ½) π$. A body that is free on $Σ$ answers each wave with a multiple of it,
-// and the layer adds one number per $k$ (`lib/antilock/exact/load_modes.hpp`): $S$ is known
-// in closed form.
+// and the layer adds one number per $k$, its part $(a/ε) \tanh εa$ of chapter 04's
+// stiffness $s_k(ε)$ (`lib/antilock/exact/load_modes.hpp`): $S$ is known in closed form.
 //
 // The sums end at $k^2 + (m - ½)^2 ≤ W^2$, $W = 2/h$. What do the later waves add? The
 // layer only takes away: it holds the body back, so the work $(f, S f)$ of a load is at
@@ -58,8 +58,10 @@
 // $(πW)^2$. In a conforming method the error is no larger than $u$ itself, by the formula
 // above. Hence a load of later waves has an error of at most $1/(πW)$, and with $E_W$ for
 // the waves up to $W$ alone $E_h^2 ≤ E_W^2 + (πW)^{-2}$. The run prints both. (For
-// Crouzeix–Raviart $a_h(u, v_h) = a_h(I_h u, v_h)$, by chapter 08's means of gradients.
-// This gives an eigenvalue, too; what the later waves add to it is not proved.)
+// Crouzeix–Raviart $a_h(u, v_h) = a_h(I_h u, v_h)$, by chapter 08's means of gradients. As
+// $I_h u$ is a discrete function, $a_h(u, u_h) = (f, I_h u)$. So the square of the error is
+// $(f, S f) - 2 (f, I_h S f) + (f, S_h f)$, a quadratic form of $f$ again, and its largest
+// value is an eigenvalue. What the later waves add to it is not proved.)
 //
 // ## How much a space of this size must lose
 //

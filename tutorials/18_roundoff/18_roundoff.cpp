@@ -51,9 +51,11 @@
 //
 // $$ p = ε^{-2} ∂_y u:   A_1 u + B^T M p = L + λ,   ε^2 p - B u = 0. $$
 //
-// This is the *split form*: a *saddle point* system, without large numbers. ε = 0 is a
-// value like any other. In the limit $-u_{xx} - ∂_y p = 0$ in the layer: $p$ is affine in
-// $y$ (second picture), bounded as $u_{xx}$ and the body's $∂_y u$.
+// This is the *split form*: a *saddle point* system, without large numbers. Its two lines
+// say that $½ u^T A_1 u - (L + λ)^T u + p^T M (B u - ½ ε^2 p)$ is least in $u$ and largest
+// in $p$, as a saddle is along its two directions. ε = 0 is a value like any other. In the
+// limit $-u_{xx} - ∂_y p = 0$ in the layer: $p$ is affine in $y$ (second picture), bounded
+// as $u_{xx}$ and the body's $∂_y u$.
 //
 // `cure` solves it. It factors $A_δ = A_1 + δ^{-1} B^T M B$ once, with a moderate δ in
 // place of $ε^2$, and uses the factor only for corrections: each one solves for what the
@@ -65,9 +67,11 @@
 // $$ 1 - \frac{ε^2 + σ}{δ + σ} = \frac{δ - ε^2}{δ + σ}. $$
 //
 // (For Crouzeix–Raviart $A_1$ is singular: some functions of the layer cost nothing along
-// $x$, only across. Give them a small energy $s$ along $x$; then $σ ∼ 1/s$, and the factor
-// above tends to 0 with $s$. So the part of $p$ that holds these functions is right after
-// the first correction.)
+// $x$, only across. Nothing in $A_1$ resists them. So the part of $p$ that works on them is
+// fixed by balance alone, whatever $δ$ is: it is a multiplier there, and not a spring. One
+// correction restores the balance, and with it this part of $p$. The formula agrees: if
+// $A_1$ resists them with a small energy $s$, then $σ ∼ 1/s$, and the factor above tends to
+// 0 with $s$.)
 // :figure: layer_stress
 //
 // ## Asymptotic-preserving is not locking-free

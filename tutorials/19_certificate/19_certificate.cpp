@@ -91,9 +91,15 @@
 // Uzawa's step). The bound then has $m + ρ$ in place of $m$.
 // :figure: certificate_flux
 //
-// **The function of $K$.** From P1 on the same mesh; then the bound is large where P1
-// locks. Or from the *strip*: averages of $u_h$ in the body, and a small P1 problem on
-// columns extruded below $Σ$, on which P1 does not lock (chapter 02).
+// **The function of $K$.** It may come from P1 on the same mesh; then the bound is large
+// where P1 locks. Or it comes from the *strip*. In the body it is the P1 function that has
+// at each vertex off $Σ$ the mean of the values of $u_h$ on the triangles around it, and 0
+// on $Γ_D$. So it does not jump, and nothing else is asked there. Below each vertex of $Σ$
+// stands a vertical line. The lines bound columns, on which P1 does not lock (chapter 02).
+// The values on $Σ$ and in the columns are those of least energy in $K$, with the values in
+// the body given: a small contact problem. Its solution is not negative on $Γ_C$, so the
+// whole function is in $K$. No step has to be accurate, since the bound is proved for every
+// $v$ of $K$.
 // :figure: strip
 
 #include <numbers>

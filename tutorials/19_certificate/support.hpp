@@ -77,7 +77,10 @@ inline void show_certificates(const std::filesystem::path& out, const Table& res
           "the energy bracket; bound and error in the energy norm; the layer's share of "
           "the bound");
   finest.select({"element", "mesh", "epsilon", "displacement", "stress", "works"})
-      .print("what the width consists of, in parts of it (finest mesh)", 3);
+      .print(
+          "what the width consists of, in parts of it (finest mesh); works: of contact, "
+          "less (f - f_1, u), which has either sign",
+          3);
   results.write(out / "results.csv");
   finest.filter_number("epsilon", [](double epsilon) { return epsilon > 0; })
       .write(out / "effectivity.csv");

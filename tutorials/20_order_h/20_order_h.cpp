@@ -70,8 +70,12 @@
 // the work of the contact pressure alone. So one has to see what the flux σ of $u$ does on
 // the jumps of $e$. Let $σ_h$ have the mean fluxes of $u$ through the edges: the
 // *Raviart-Thomas interpolant*. Its flux is constant along an edge, and the jumps of $e$
-// have mean 0, so $σ_h$ does no work on them. Three terms are left: $η$, the distance of
-// the means of σ and $σ_h$ over triangles; the load, at most $(h/π)‖f‖$; and contact,
+// have mean 0, so $σ_h$ does no work on them. Subtract it: $(σ, ∇e) - (f, e)$ is
+// $(σ - σ_h, ∇e)$ and $(σ_h, ∇e) - (f, e)$. In the first part $∇e$ is constant on a
+// triangle, so only means of $σ - σ_h$ count. Integrate the second part by parts: on each
+// triangle $-\operatorname{div} σ_h$ is the mean of $f$, and on $Γ_C$ the flux of $σ_h$ is
+// the mean pressure. So three terms are left: $η$, the distance of the means of σ and $σ_h$
+// over triangles; the load less its means, at most $(h/π)‖f‖$; and contact,
 // $T_C = ∑_E \bar λ ∫_E (u - u_h)$, with $\bar λ$ the mean pressure over an edge $E$ of
 // $Γ_C$.
 //

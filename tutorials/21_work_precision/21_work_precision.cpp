@@ -62,10 +62,13 @@
 // at a quarter of the price. Its width is then divided by 4. This is an extrapolation: the
 // order is observed, and where a method locks it is wrong.
 //
-// *The rule.* Let $b$ be the width over $|J|$. The largest error of $u_h$ is of relative
-// order $b$ where $u$ is smooth, its energy error of order $b^{1/2}$. Uzawa stops when the
-// duality gap is at most $(b/20)^2 |J|$. Then $|v - u_h|_a$ is at most $b/20$ of $|u_h|_a$,
-// because $|J(u_h)| = ½ |u_h|_a^2$ and $J$ is nearly $J(u_h)$.
+// *The rule.* Let $b$ be the width over $|J|$. The energy error of $u_h$ is of relative
+// order $b^{1/2}$, because half its square is at most the width. So $b$ is like $h^2$, and
+// where $u$ is smooth the largest error of $u_h$ is of this order, too. Uzawa stops when
+// the duality gap is at most $(b/20)^2 |J|$. Then $|v - u_h|_a$ is at most $b/20$ of
+// $|u_h|_a$, because $|J(u_h)| = ½ |u_h|_a^2$ and $J$ is nearly $J(u_h)$. The 20 is a
+// safety factor: the algebraic error is to be small against the *largest* error too, not
+// only against that of the energy.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

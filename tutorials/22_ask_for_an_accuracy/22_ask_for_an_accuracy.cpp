@@ -8,7 +8,7 @@
 // Needs: [19](../19_certificate/19_certificate.cpp) (flux, certificate, strip),
 // [02](../02_meshes/02_meshes.cpp) (the layered mesh).
 //
-// **The picture** (`asked_meshes`). Three meshes for one concentrated load at
+// **The picture.** Three meshes for one concentrated load at
 // $ε = 10^{-6}$, coloured by the bound per area. *Where a mesh follows its certificate, the
 // peak of the colour is gone: there the triangles are small.*
 //

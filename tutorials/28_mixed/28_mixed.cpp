@@ -100,9 +100,11 @@
 // $(B v_h, q)$ differs from $(P_h B v_h, q)$ by $(B v_h, q - P_h q)$, which vanishes,
 // because means over small groups come near $q$. Larger groups leave more functions, which
 // helps (ii), but the form sees less, which hurts (i). One way out (Arnold and Brezzi 1993,
-// for plates) keeps half of $a_0$: $a_1 + ½ a_0 + (ε_c^{-1} - ½) a_{0h}$. Then (i) holds
-// with half the α. (The parameter $1/(ε_c^{-1} - ½)$ is up to 2 now. The bound of step 1
-// holds, as $a_1 + ½ a_0$ alone is coercive.)
+// for plates) keeps half of $a_0$: $a_1 + ½ a_0 + (ε_c^{-1} - ½) a_{0h}$. Why does half
+// help? The half that is kept sees every strain. Where $a_1 ≥ 0$, as here, the form is at
+// least half of $a_1 + a_0$: (i) holds with half the α. And in the limit this half asks for
+// nothing new, because $a_0 = 0$ there anyway. (The parameter $1/(ε_c^{-1} - ½)$ is up to
+// 2 now. The bound of step 1 holds, as $a_1 + ½ a_0$ alone is coercive.)
 
 #include "antilock/analysis/best_approximation.hpp"
 #include "antilock/analysis/kernel.hpp"

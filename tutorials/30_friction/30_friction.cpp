@@ -58,21 +58,30 @@
 // With one $g_i$ per unknown, $j$ is replaced by $j_h(v) = \sum g_i |v_i|$: the integral of
 // $g$ times the interpolant of $|v_x|$ at vertices (P1) or midpoints (CR), this page's one
 // new discretisation. For P1 $j_h ≥ j$: the interpolant of a convex function lies above it.
-// On an edge they differ where $v_x$ changes its sign, by at most $h|v_x'|$. So $j_h - j$
-// is at most $h∫g|v_x'| ≤ Ch^{1/2}‖v‖_1$ on P1 functions (an edge's slope is that of its
-// triangle, whose area is $∼ h^2$), and it vanishes with $h$ on bounded $v_h$. For CR the
-// value at a midpoint is the edge's mean: the same bound. Traces on $Γ_C$ converge strongly
+// On an edge they differ where $v_x$ changes its sign, by at most $h|v_x'|$. So on P1
+// functions
+//
+// $$ j_h(v) - j(v) ≤ h ∫ g |v_x'| ≤ C h^{1/2} ‖v‖_1. $$
+//
+// (An edge's slope is that of its triangle, whose area is $∼ h^2$.) It vanishes with $h$ on
+// bounded $v_h$. For CR the value at a midpoint is the edge's mean: the same bound.
+//
+// *Does $j$ converge?* Traces on $Γ_C$ converge strongly
 // where functions of $H^1$ converge weakly (they are compact). CR's functions jump. Compare
 // such a $v_h$ with the P1 function $E v_h$ whose value at a vertex is the mean of those of
 // $v_h$ around it. $E v_h$ is bounded in $H^1$, and $v_h - E v_h$ is at most
 // $C h^{1/2} ‖v_h‖_h$ on $Γ_C$, because the jumps have mean 0 (chapter 12's count over
 // edges). So the traces of $v_h$ converge strongly, too, hence $j$ converges, as chapter 28
-// asks. So friction asks no more of an element than contact: the convergence is uniform in
-// λ where (i) to (iv) hold. (i), (iii), (iv) are proved for the three elements that do not
-// lock: (i) is Korn's inequality, for CR with its jumps. (ii) is proved for CR: interpolate
-// $w+zh^2/12$ by edge means; $z$ keeps the volume, is 0 on top, $z_y = 1$ on $Γ_C$ (a mean
-// of the gap is its midpoint's and $h^2/12$ more). For the other two it is neither proved
-// nor tested.
+// asks.
+//
+// So friction asks no more of an element than contact: the convergence is uniform in λ
+// where chapter 28's (i) to (iv) hold. (i), (iii), (iv) are proved for the three elements
+// that do not lock: (i) is Korn's inequality, for CR with its jumps. (ii) is proved for
+// CR. It asks for motions that keep the volume, come near a given $w$, and stay above the
+// obstacle. Edge means of $w$ keep the volume, but the mean of the gap over an edge is its
+// value at the midpoint and $h^2/12$ more, so they may sink in by that. Interpolate
+// $w + z h^2/12$ instead, where $z$ keeps the volume, is 0 on top, and $z_y = 1$ on $Γ_C$.
+// For the other two elements (ii) is neither proved nor tested.
 //
 // Others impose friction by Nitsche's method with hybrid elements (Chouly, Ern and Pignet
 // 2020, into the incompressible limit), and certify the answer by balanced stresses as

@@ -237,7 +237,9 @@ void judge(const Table& forces, const Table& diagnoses, int cells,
 // penalty $δ ≈ 6 · 10^{-8}$ of the other chapters, P1 in columns and P1 / CR take some 40
 // at $t = 10^{-6}$ (exercise 3). P1 in columns and P1 / CR have another force at $t = 0$
 // than for $t → 0$: there are motions $w$ without a $z$. Of their energy $|B_1 w|^2$ a part
-// of order $h^2$, which no $z$ removes, is present for $t > 0$ and absent at $t = 0$.
+// of order $h^2$, which no $z$ removes, is present for $t > 0$ and absent at $t = 0$. So at
+// fixed $h$ their $u_h^t$ does not tend to $u_h^0$: these two methods are not
+// *asymptotic-preserving* (chapter 18).
 //
 // ## Exercises
 //

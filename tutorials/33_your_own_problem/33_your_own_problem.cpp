@@ -55,8 +55,11 @@
 // - (ii) let $(u, u)$ with $u ≥ -g$ be given. Interpolate $u$ on the upper string, and let
 //   the lower one be its projection,
 // $∫ (I u - w_h) φ_i = 0$. $w_h$ tends to $u$ in $H^1$, and so uniformly: it is below $-g$
-// by some $δ_h → 0$ at most. Add $δ_h$ times one fixed bump to both strings, and project
-// again: $w_h ≥ -g$ and $a_{0h} = 0$;
+// by some $δ_h → 0$ at most. Add $2 δ_h$ times one fixed smooth bump to the upper string, a
+// bump that is 1 where $u < -g/2$, and project again. The projection is linear, so $w_h$
+// grows by $2 δ_h$ times the projection of the bump, which tends to the bump uniformly: for
+// small $h$ it is at least ½ where $u < -g/2$. So $w_h ≥ -g$ there. Elsewhere $w_h$ is near
+// $u ≥ -g/2$. And $a_{0h} = 0$;
 // - (iii), (iv) bounded pairs have a subsequence for which $u_h - w_h$ converges strongly
 //   in $L^2$ (*Rellich*'s theorem). Means over
 // a width of $2h$ then tend to the function itself, and $a_{0h}$ to $a_0$.
