@@ -67,7 +67,9 @@
 // jumps. P1 does neither, so it is at most 0: this is *Falk's lemma* (Remark 2). For CR it
 // is the *consistency error*. By parts on each triangle, it is the work of the pressure,
 // and that of the *flux* of $u$ on the jumps. The flux is the gradient times the stiffness:
-// $∇u$ in the body, and $∂_x u$ and $p$ in the layer.
+// $∇u$ in the body, and $∂_x u$ and $p$ in the layer. (Without contact the first infimum
+// alone is the lemma of *Céa*, for methods that do not jump, and the second one stands for
+// the consistency term of *Strang*'s second lemma.)
 //
 // ## Two hypotheses that conforming methods have for nothing
 //
