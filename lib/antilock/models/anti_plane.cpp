@@ -63,8 +63,12 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
         throw Error(
             "scene and mesh: Sigma has a vertex at " + mesh.location_text(v) +
             "; accepted: Sigma on the line y = 0, or a layer that is grown along its normals");
-  // (22) and (23) differ by the depth of their meshes
-  const double lowest = mesh.vertices.col(1).minCoeff(), wanted = -scene.layer_depth();
+  // (22) and (23) differ by the depth of their meshes. A second body may lie below the layer.
+  double lowest = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::layer)
+      for (const int v : mesh.triangles.row(t)) lowest = std::min(lowest, mesh.vertices(v, 1));
+  const double wanted = -scene.layer_depth();
   const double off = slack * std::max(size, scene.layer_depth());
   if (mesh_has_layer && (lowest < wanted - off || (lowest > wanted + off && is_whole(mesh))))
     throw Error(
