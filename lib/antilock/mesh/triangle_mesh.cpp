@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "antilock/core/error.hpp"
@@ -44,6 +45,42 @@ void check_indices(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagg
       refuse(where, "a tagged edge has vertices {} and {}; accepted 0 to {}", e.from, e.to, n - 1);
 }
 
+/// The named groups of the edges at each vertex that has such edges.
+std::map<int, std::set<int>> named_groups_at(const std::vector<TaggedEdge>& tagged_edges) {
+  std::map<int, std::set<int>> groups;
+  for (const auto& [from, to, tag] : tagged_edges) {
+    if (tag.group < 0) continue;
+    groups[from].insert(tag.group);
+    groups[to].insert(tag.group);
+  }
+  return groups;
+}
+
+/// Two vertices at one place are a crack that nobody meant, unless they are on edges of two named
+/// groups: then each face has its own condition, as two bodies in contact have.
+void check_places(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges,
+                  const std::string& where) {
+  // duplicates are neighbours once sorted by x then y
+  std::vector<int> order(mesh.vertex_count());
+  std::iota(order.begin(), order.end(), 0);
+  const auto& p = mesh.vertices;
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return p(a, 0) != p(b, 0) ? p(a, 0) < p(b, 0) : p(a, 1) < p(b, 1);
+  });
+  const std::map<int, std::set<int>> groups = named_groups_at(tagged_edges);
+  const auto are_two_faces = [&](int a, int b) {
+    const auto of_a = groups.find(a), of_b = groups.find(b);
+    if (of_a == groups.end() || of_b == groups.end()) return false;
+    return of_a->second.size() > 1 || of_a->second != of_b->second;
+  };
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (p.row(order[i]) == p.row(order[i - 1]) && !are_two_faces(order[i], order[i - 1]))
+      refuse(where,
+             "two vertices share the place {}: a crack; accepted: one vertex a place, or two on "
+             "edges of two named groups",
+             mesh.location_text(order[i]));
+}
+
 void check_vertices(const TriangleMesh& mesh, const std::string& where) {
   std::vector<char> used(mesh.vertex_count(), 0);
   for (const int v : mesh.triangles.reshaped()) used[v] = 1;
@@ -51,17 +88,6 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
   if (unused != used.end())
     refuse<MeshError>(where, "the vertex at {} is dangling: it belongs to no triangle",
                       mesh.location_text(static_cast<int>(unused - used.begin())));
-  // Duplicates are neighbours once sorted by x then y.
-  std::vector<int> order(mesh.vertex_count());
-  std::iota(order.begin(), order.end(), 0);
-  const auto& p = mesh.vertices;
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return p(a, 0) != p(b, 0) ? p(a, 0) < p(b, 0) : p(a, 1) < p(b, 1);
-  });
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (p.row(order[i]) == p.row(order[i - 1]))
-      refuse(where, "two vertices share the place {}: a crack; accepted: one vertex a place",
-             mesh.location_text(order[i]));
 }
 
 /// A surface that gmsh oriented downwards is turned round as a whole; a single inverted triangle is
@@ -311,6 +337,7 @@ TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<
     refuse(where, "{} numbers of surfaces; accepted: none, or one per triangle, from 0 on",
            surface.size());
   check_vertices(mesh, where);
+  check_places(mesh, tagged_edges, where);
   check_triangles(mesh, where);
   orient(mesh, surface.empty() ? surfaces_of(mesh.region) : surface, where);
   if (std::find(mesh.region.begin(), mesh.region.end(), Region::body) == mesh.region.end())

@@ -90,6 +90,11 @@ TEST(TriangleMesh, RefusesWhatIsNoMesh) {
     i.triangles.row(1) << 5, 4, 3;
     i.tagged[2] = {4, 3, EdgeTag::clamped}, i.tagged[3] = {3, 5, EdgeTag::clamped};
   });
+  refused("two vertices share the place", [](I& i) {  // both faces in one named group
+    i.add_vertex(1, 1), i.add_vertex(0, 0);
+    i.triangles.row(1) << 5, 4, 3;
+    i.tagged.push_back({0, 2, natural_group(0)}), i.tagged.push_back({5, 4, natural_group(0)});
+  });
   refused("belongs to no triangle", [](I& i) { i.add_vertex(0.3, 0.4); });
   refused("hangs on the edge",
           [](I& i) {  // the lower triangle split at the middle of the diagonal, the upper one not
@@ -104,6 +109,15 @@ TEST(TriangleMesh, RefusesWhatIsNoMesh) {
           [](I& i) { i.add_vertex(0.9, 0.2), i.add_triangle(0, 4, 2); });
   refused("in no group", [](I& i) { i.tagged.erase(i.tagged.begin() + 2); });
   refused("no triangle is in the group body", [](I& i) { i.region.assign(2, Region::layer); });
+}
+
+TEST(TriangleMesh, AcceptsACrackWhoseFacesAreInTwoNamedGroups) {
+  Input input;
+  input.add_vertex(1, 1), input.add_vertex(0, 0);
+  input.triangles.row(1) << 5, 4, 3;
+  input.tagged = {{0, 1, EdgeTag::contact}, {1, 2, EdgeTag::clamped}, {4, 3, EdgeTag::clamped},
+                  {3, 5, EdgeTag::clamped}, {0, 2, natural_group(0)}, {5, 4, natural_group(1)}};
+  EXPECT_EQ(input.make().edge_count(), 6);
 }
 
 TEST(TriangleMesh, RefusesATaggedEdgeThatIsNoEdgeOrInTheWrongPlace) {
