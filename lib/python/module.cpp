@@ -125,7 +125,7 @@ py::tuple run(const std::string& text, const std::string& folder) {
   py::dict arrays("points"_a = answer.space.dof_coordinates(),
                   "vertices"_a = answer.space.mesh().vertices,
                   "triangles"_a = answer.space.mesh().triangles);
-  if (file.scene.contact()) arrays["contact"] = contact_table(normal_contact(answer));
+  if (const auto contact = contact_results(file, answer)) arrays["contact"] = contact->table;
   answer.solution.p.conservativeResize(answer.problem.parametric_row_count());
   if (answer.space.element().nodal()) {
     arrays["u"] = given(answer.solution.u);

@@ -26,6 +26,8 @@ std::string lines_before(const SceneKey& key) {
   if (place == "layer.load") return "epsilon = 0.1\n";
   if (place == "layer.stiffness") return "thickness = 0.1\n";
   if (place == "method.of" || place == "method.most_unknowns") return "accuracy = 0.1\n";
+  if (place == "contact.master") return "slave = \"a\"\n";
+  if (place == "contact.method") return "slave = \"a\"\nmaster = \"b\"\n";
   if (place == "mesh.cells") return "kind = \"structured\"\n";
   if (place == "mesh.refinements") return "kind = \"structured\"\ncells = 8\n";
   if (place == "mesh.file") return "kind = \"file\"\n";

@@ -55,11 +55,11 @@ ContactZone contact_zone(const Eigen::VectorXd& x, const std::vector<bool>& acti
   return zone;
 }
 
-std::pair<double, double> contact_ends(const TriangleMesh& mesh) {
+std::pair<double, double> contact_ends(const TriangleMesh& mesh, EdgeTag tag) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::pair<double, double> ends{infinity, -infinity};
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    if (mesh.edge_tag[e] != tag) continue;
     for (const int v : mesh.edges.row(e)) {
       ends.first = std::min(ends.first, mesh.vertices(v, 0));
       ends.second = std::max(ends.second, mesh.vertices(v, 0));

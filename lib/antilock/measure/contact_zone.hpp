@@ -28,9 +28,9 @@ ContactZone contact_zone(const Result& result);
 ContactZone contact_zone(const Eigen::VectorXd& x, const std::vector<bool>& active,
                          const std::pair<double, double>& ends);
 
-/// Returns the smallest and the largest x of Gamma_C, infinity and minus infinity where the mesh
-/// has no contact edge.
-std::pair<double, double> contact_ends(const TriangleMesh& mesh);
+/// Returns the smallest and the largest x of the edges with a tag, by default those of Gamma_C;
+/// infinity and minus infinity where the mesh has no such edge.
+std::pair<double, double> contact_ends(const TriangleMesh& mesh, EdgeTag tag = EdgeTag::contact);
 
 /// The resultant of the forces of the obstacles on the body, per unit length of the third
 /// direction. Its unit is that of the body force f times length^2.

@@ -502,9 +502,10 @@ void check_groups(const MshLines& lines, const MshFile& file, const ExtraGroups&
                   const GroupNames& found) {
   for (const auto& [dimension, name] : GroupNames{{2, "body"}, {1, "clamped"}, {1, "contact"}}) {
     if (found.contains({dimension, name})) continue;
-    const bool replaced =
-        (name == "body" && !more.bodies.empty()) || (name == "clamped" && !more.curves.empty());
-    if (!replaced)
+    const bool is_optional = (name == "body" && !more.bodies.empty()) ||
+                             (name == "clamped" && !more.curves.empty()) ||
+                             (name == "contact" && !more.needs_contact);
+    if (!is_optional)
       lines.refuse_file<MeshError>(
           "has nothing in the physical group {}; needed: body, clamped, contact", in_quotes(name));
   }

@@ -13,6 +13,7 @@ namespace antilock {
 struct ExtraGroups {
   std::map<std::string, EdgeTag> curves = {};
   std::vector<std::string> bodies = {};
+  bool needs_contact = true;  ///< whether the file must have the group contact
 };
 /// Reads a file of MSH 2.2 or 4.1 (ASCII) with the physical groups body, clamped, contact and, with
 /// a layer, layer and sigma. The group sigma may be absent, because its edges are those between

@@ -255,6 +255,38 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGr
   };
 }
 
+/// Whether the section names the sides of two bodies.
+bool is_between_bodies(const Section& section) {
+  return section.has("slave") || section.has("master") || section.has("method");
+}
+
+/// The contact of two bodies. Its sides become edges without another condition.
+TwoBodyContact read_interface(const Section& section, ExtraGroups& groups,
+                              std::vector<BoundaryCondition>& edges) {
+  section.only_its_keys();
+  if (section.has("ceiling"))
+    section.refuse("ceiling", "does not go with two bodies; accepted: a gap alone");
+  const auto side = [&](const std::string& key) {
+    const std::string group = section.text(key);
+    if (group == "clamped" || group == "contact" || group == "sigma" ||
+        groups.curves.contains(group))
+      section.refuse(key, fmt::format("\"{}\" has its condition already; accepted: another group",
+                                      printable(group)));
+    const EdgeTag tag = natural_group(static_cast<int>(edges.size()));
+    groups.curves[group] = tag;
+    edges.push_back({group});
+    return tag;
+  };
+  TwoBodyContact contact;
+  contact.slave = side("slave");
+  contact.master = side("master");
+  contact.gap = [gap = profile(section, "gap")](double x, double) { return gap(x); };
+  if (section.one_of("method") == "node to segment")
+    contact.method = InterfaceMethod::node_to_segment;
+  groups.needs_contact = false;
+  return contact;
+}
+
 UnilateralContact read_contact(const Section& section) {
   section.only_its_keys();
   UnilateralContact contact{profile(section, "gap")};
@@ -426,11 +458,14 @@ CoatingModel read_coating(const Section& section, const std::optional<Unilateral
 
 /// [model], with the sections that its kinds share.
 SceneModel read_model(const Section& section, const std::optional<UnilateralContact>& contact,
-                      const Layer& layer) {
+                      const std::optional<TwoBodyContact>& between, const Layer& layer) {
   if (section.one_of("kind") == AntiPlaneModel::traits.name) {
     section.only_its_keys();
-    return AntiPlaneModel{};
+    return between ? SceneModel(TwoBodyModel{*between}) : AntiPlaneModel{};
   }
+  if (between)
+    section.refuse("kind",
+                   "\"plane strain\" does not go with two bodies; accepted: \"anti-plane\"");
   if (std::holds_alternative<NoLayer>(layer)) return read_rubber(section, contact);
   const auto* stiff = std::get_if<StiffLayer>(&layer);
   if (stiff == nullptr)
@@ -544,6 +579,19 @@ void check_together(const Section& root, const Scene& scene, const MeshRequest& 
 
 void check_model(const Section&, const AntiPlaneModel&, const Scene&, const MethodRequest&) {}
 
+void check_model(const Section& root, const TwoBodyModel&, const Scene& scene,
+                 const MethodRequest& method) {
+  const auto refuse = [&](const std::string& key, const std::string& what,
+                          const std::string& accepted) {
+    root.refuse(key, what + " does not go with two bodies; accepted: " + accepted);
+  };
+  if (method.accuracy) refuse("method.accuracy", "an accuracy", "none");
+  if (method.element != "P1" && method.element != "CR")
+    refuse("method.element", "\"" + method.element + "\"", "\"P1\", \"CR\"");
+  if (std::holds_alternative<VentcelLayer>(scene.layer()))
+    refuse("layer.model", "\"ventcel\"", "\"scaled\", \"thin\"");
+}
+
 /// What plane strain has no use for yet.
 template <class Block>
 void check_model(const Section& root, const PressedModel<Block>& model, const Scene& scene,
@@ -571,6 +619,10 @@ void check_model(const Section& root, const PressedModel<Block>& model, const Sc
 }
 
 }  // namespace
+
+bool has_contact(const SceneFile& file) {
+  return file.scene.contact() || std::holds_alternative<TwoBodyModel>(file.model);
+}
 
 std::string beyond_the_paper(const SceneFile& file) {
   return std::visit([&](const auto& model) { return model.beyond_the_paper(file.scene); },
@@ -605,17 +657,24 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   Body body = read_body(root);
   if (unit_square) sample_load(body.load);
   ExtraGroups groups;
-  const std::vector<BoundaryCondition> edges = read_edges(root.sections("edge"), groups);
-  read_groups(root.section("body"), mesh.file, groups, body);
-  if (unit_square && !(groups.curves.empty() && groups.bodies.empty()))
-    root.refuse(groups.bodies.empty() ? "edge" : "body",
-                "names groups of a mesh file; accepted: with kind = \"file\" only");
+  std::vector<BoundaryCondition> edges = read_edges(root.sections("edge"), groups);
+  if (unit_square && !groups.curves.empty())
+    root.refuse("edge", "names groups of a mesh file; accepted: with kind = \"file\" only");
   const Layer layer = root.has("layer") ? read_layer(root.section("layer")) : NoLayer{};
   std::optional<UnilateralContact> contact;
-  if (root.has("contact")) contact = read_contact(root.section("contact"));
+  std::optional<TwoBodyContact> between;
+  if (root.has("contact") && is_between_bodies(root.section("contact")))
+    between = read_interface(root.section("contact"), groups, edges);
+  else if (root.has("contact"))
+    contact = read_contact(root.section("contact"));
+  if (between && unit_square)
+    root.refuse("contact", "names groups of a mesh file; accepted: with kind = \"file\" only");
+  read_groups(root.section("body"), mesh.file, groups, body);
+  if (unit_square && !groups.bodies.empty())
+    root.refuse("body", "names groups of a mesh file; accepted: with kind = \"file\" only");
   if (contact && unit_square) sample_profile(contact->gap);
   if (contact && contact->upper_obstacle && unit_square) sample_profile(contact->upper_obstacle);
-  const SceneModel model = read_model(root.section("model"), contact, layer);
+  const SceneModel model = read_model(root.section("model"), contact, between, layer);
   if (contact && (!unit_square || traits_of(model).free_sides)) contact->zero_at.clear();
   const MethodRequest method = read_method(root.section("method"));
   const Scene scene = [&] {

@@ -66,6 +66,9 @@ SceneFile read_scene_file(const std::filesystem::path& path);
 /// in its folder.
 SceneFile read_scene(const std::string& text, const std::filesystem::path& path);
 
+/// Returns whether the scene has a contact, on an obstacle or between two bodies.
+bool has_contact(const SceneFile& file);
+
 /// Returns the name of a feature that the problem of [SR04] (cited in
 /// problem/variational_inequality.hpp) does not have: plane strain, or the one of
 /// Scene::beyond_the_paper. The text is empty if the scene has no such feature.

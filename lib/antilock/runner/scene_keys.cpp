@@ -100,6 +100,21 @@ std::vector<SceneKey> contact_keys() {
        .accepted = in_x,
        .line = 2, .example = "\"0.2\"",
        .comment = "optional: u <= ceiling(x) too; where it presses down, the pressure is negative"},
+      {.section = "contact", .name = "slave", .type = Type::text,
+       .does = "with two bodies: the group of the side whose unknowns have the constraints",
+       .accepted = "the name of a group of curves of the mesh file",
+       .line = 3, .example = "\"lower\"",
+       .comment = "two bodies of a mesh file, which need not match: the groups of their sides on one\n"
+                  "straight line, u above - u below >= -gap(x). The slave is the shorter side, or the finer"},
+      {.section = "contact", .name = "master", .type = Type::text,
+       .does = "with two bodies: the group of the other side, at least as long",
+       .accepted = "the name of a group of curves of the mesh file",
+       .line = 4, .example = "\"upper\""},
+      {.section = "contact", .name = "method", .type = Type::choice,
+       .does = "with two bodies: means of the jump, or its values at the slave's unknowns",
+       .otherwise = "mortar", .choices = {"mortar", "node to segment"},
+       .line = 5, .example = "\"mortar\"",
+       .comment = "with two bodies: \"mortar\" (default) or \"node to segment\""},
   };
 }
 

@@ -186,15 +186,17 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file, const Geometry& geometry)
   mesh.geometry = geometry;
   check_geometry(mesh);
   // In plane strain without layer and contact the group contact is free, wherever its edges lie.
+  // Two bodies have no contact edges; models/two_bodies.hpp checks their sides and their layer.
   const bool any_shape =
-      traits_of(scene_file.model).components > 1 && !scene.contact() && depth == 0;
+      std::holds_alternative<TwoBodyModel>(scene_file.model) ||
+      (traits_of(scene_file.model).components > 1 && !scene.contact() && depth == 0);
   if (!any_shape && !layered() && is_curved(scene_file, mesh)) {
     TriangleMesh below =
         extruded(mesh, scene.epsilon().value_or(0), true);  // which says what Sigma may be
     return depth > 0 ? below : mesh;
   }
   if (depth > 0) straighten_columns(mesh, depth);
-  if (!layered() && std::holds_alternative<StiffLayer>(scene.layer())) {
+  if (!layered() && !any_shape && std::holds_alternative<StiffLayer>(scene.layer())) {
     check_bottom_edge(mesh, EdgeTag::contact);
     mesh = extruded(mesh, *scene.epsilon());  // the layer grows below the body
   }

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "antilock/analysis/solve.hpp"
 #include "antilock/measure/result.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plane_strain.hpp"
+#include "antilock/models/two_bodies.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/space/space.hpp"
@@ -57,6 +59,23 @@ struct AntiPlaneModel {
                      const Eigen::VectorXd& pressure) const;
   /// Returns the subcommand of `render` that draws the solution.
   const char* picture(bool mesh_from_file) const { return mesh_from_file ? "plan" : "surface"; }
+};
+
+/// The anti-plane model with the contact of two bodies (models/two_bodies.hpp). Its scene has no
+/// contact of its own.
+struct TwoBodyModel : AntiPlaneModel {
+  TwoBodyContact between;
+
+  explicit TwoBodyModel(TwoBodyContact contact) : between(std::move(contact)) {}
+  std::string beyond_the_paper(const Scene&) const { return "two bodies"; }
+  VariationalInequality problem(const Scene& scene, const Space& space) const;
+  /// The report on locking compares energies, where the element can lock. J is that of u_h, J_CR
+  /// that of Crouzeix-Raviart on the same mesh, and J_0 that of the same element with u = 0 in the
+  /// layer. The estimate of the lost share is (J - J_CR) / (J_0 - J_CR). It is not proved. It
+  /// contains the discretisation errors of both elements, and so there is a warning from 25 % on.
+  Result solve(const SceneFile& file, const Space& space, const Solver& solver) const;
+  /// From above both sides of the interface would be one line.
+  const char* picture(bool) const { return "surface"; }
 };
 
 /// The model of [model] kind = "plane strain": a block that is pressed down. `block` holds all of
@@ -111,7 +130,7 @@ std::optional<LockingReport> PressedModel<Coating>::locking_report(const SceneFi
 template <>
 Eigen::VectorXd PressedModel<Coating>::pressure(const Result& result) const;
 
-using SceneModel = std::variant<AntiPlaneModel, RubberModel, CoatingModel>;
+using SceneModel = std::variant<AntiPlaneModel, TwoBodyModel, RubberModel, CoatingModel>;
 
 inline const ModelTraits& traits_of(const SceneModel& model) {
   return std::visit([](const auto& kind) -> const ModelTraits& { return kind.traits; }, model);

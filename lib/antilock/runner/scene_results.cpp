@@ -67,6 +67,8 @@ Json question(const SceneFile& file) {
   if (words.contains("contact")) {
     asked["gap"] = words["contact"].value("gap", "0");
     add(words["contact"], "ceiling", "ceiling");
+    for (const std::string key : {"slave", "master", "method"})
+      add(words["contact"], key.c_str(), "contact " + key);
   }
   if (method.accuracy)
     asked["method"].update({{"accuracy", *method.accuracy},
@@ -74,6 +76,12 @@ Json question(const SceneFile& file) {
                             {"most_unknowns", method.most_unknowns}});
   for (const char* section : {"body", "edge", "at", "model"}) add(words, section, section);
   return asked;
+}
+
+std::vector<std::string> effects_of(const SceneFile& file) {
+  std::vector<std::string> effects = file.scene.effects();
+  if (has_contact(file) && !file.scene.contact()) effects.emplace_back("contact");
+  return effects;
 }
 
 /// What was asked, what is proved, and the way there.
@@ -154,13 +162,9 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
   s.u_max = values.maxCoeff();
   s.u_min = values.minCoeff();
   s.compliance = result.problem.load.dot(solution.u);
-  if (file.scene.contact()) {
-    const Result normal = normal_contact(result);
-    s.zone = contact_zone(normal);
-    s.force = contact_force(normal);
-    const auto friction =
-        std::visit([&](const auto& model) { return model.friction_forces(result); }, file.model);
-    if (friction) s.force.tangential = friction->dot(contact_lengths(result.space));
+  if (const auto contact = contact_results(file, result)) {
+    s.zone = contact->zone;
+    s.force = contact->force;
   }
   const Eigen::Index size = result.space.size(), components = solution.u.size() / size;
   s.at.resize(static_cast<Eigen::Index>(file.at.size()), 2 + components);
@@ -201,7 +205,7 @@ std::string force_table(const SceneFile& file, const SceneSummary& summary,
   const std::string force_unit = "that of f times length^2";
   const std::string moment_unit = "that of f times length^3";
   std::string table = fmt::format("  {:<22} {:>12}  {:<32} {}\n", "", "value", "interval", "unit");
-  if (file.scene.contact()) {
+  if (has_contact(file)) {
     const ContactForce& force = summary.force;
     table += table_line("contact force, upwards", force.normal, "", force_unit);
     if (force.tangential)
@@ -215,8 +219,8 @@ std::string force_table(const SceneFile& file, const SceneSummary& summary,
   }
   const Interval proved = certified != nullptr ? proved_compliance(*certified) : Interval();
   const std::string interval = text_of(proved) + (proved ? " (proved)" : "");
-  table += table_line("compliance L(u)", summary.compliance, interval,
-                      "that of f u times length^2");
+  table +=
+      table_line("compliance L(u)", summary.compliance, interval, "that of f u times length^2");
   return table;
 }
 
@@ -229,12 +233,12 @@ std::string summary_text(const SceneFile& file, const SceneSummary& summary,
   s["epsilon"] = or_null(file.scene.epsilon());
   s["h"] = summary.h;
   s["dofs"] = summary.unknowns;
-  s["effects"] = file.scene.effects();
+  s["effects"] = effects_of(file);
   s["energy"] = finite("the energy", summary.energy);
   s["compliance"] = compliance_of(summary, certified);
   s["u_max"] = finite("the maximum", summary.u_max);
   s["u_min"] = finite("the minimum", summary.u_min);
-  if (file.scene.contact()) {
+  if (has_contact(file)) {
     const ContactZone& zone = summary.zone;
     s["contact"] = {{"points", zone.points},
                     {"active", zone.active},
@@ -363,17 +367,17 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
                          const Result& result, const SceneSummary& summary,
                          const CertifiedSolution* certified, const ResultFiles& asked) {
   const Stopwatch watch;
-  const bool contact = file.scene.contact().has_value(), csv = asked.contains("csv"),
-             vtu = asked.contains("vtu");
+  const bool csv = asked.contains("csv"), vtu = asked.contains("vtu");
   const auto write = [&](const std::filesystem::path& draft) {
     if (csv) write_solution_csv(draft / "solution.csv", result.space, result.solution.u);
     Eigen::VectorXd pressure;  // empty without contact
-    if (contact) {
-      Eigen::MatrixX3d table = contact_table(normal_contact(result));
-      if (!file.scene.contact()->upper_obstacle)  // which presses downwards: a pressure below 0
+    if (const auto contact = contact_results(file, result)) {
+      Eigen::MatrixX3d table = contact->table;
+      const bool has_ceiling = file.scene.contact() && file.scene.contact()->upper_obstacle;
+      if (!has_ceiling)  // which presses downwards: a pressure below 0
         table.rightCols<2>() =
             table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
-      pressure = table.col(2);
+      if (file.scene.contact()) pressure = table.col(2);  // of the unknowns on Gamma_C
       const auto friction =
           std::visit([&](const auto& model) { return model.friction_forces(result); }, file.model);
       if (csv) write_contact(draft / "contact.csv", table, friction);

@@ -43,6 +43,20 @@ Solution solve_as_asked(const SceneFile& file, const Space& space,
   return solution;
 }
 
+/// The contact of two bodies.
+ContactResults interface_results(const TwoBodyContact& between, const Result& result) {
+  const InterfaceConstraints constraints =
+      interface_constraints(result.space, between.slave, between.master, between.method);
+  const Solution& solution = result.solution;
+  ContactResults found;
+  found.table = interface_table(constraints, result.problem.bounds, solution.u, solution.lambda);
+  const Eigen::VectorXd x = found.table.col(0);
+  found.zone = contact_zone(x, solution.active, contact_ends(result.space.mesh(), between.slave));
+  found.force.normal = solution.lambda.sum();
+  found.force.moment = solution.lambda.dot(x);
+  return found;
+}
+
 }  // namespace
 
 VariationalInequality problem_of(const SceneFile& file, const Space& space) {
@@ -132,6 +146,18 @@ Result normal_contact(const Result& result) {
   normal.solution.lambda = solution.lambda.head(all);
   normal.solution.active.assign(solution.active.begin(), solution.active.begin() + all);
   return normal;
+}
+
+std::optional<ContactResults> contact_results(const SceneFile& file, const Result& result) {
+  if (const auto* bodies = std::get_if<TwoBodyModel>(&file.model))
+    return interface_results(bodies->between, result);
+  if (!file.scene.contact()) return {};
+  const Result normal = normal_contact(result);
+  ContactResults found{contact_table(normal), contact_zone(normal), contact_force(normal)};
+  const auto friction =
+      std::visit([&](const auto& model) { return model.friction_forces(result); }, file.model);
+  if (friction) found.force.tangential = friction->dot(contact_lengths(result.space));
+  return found;
 }
 
 }  // namespace antilock

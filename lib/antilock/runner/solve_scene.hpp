@@ -1,10 +1,12 @@
 #pragma once
 // The discrete problem of a scene file and its solution.
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/core/progress.hpp"
+#include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/result.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/runner/scene_file.hpp"
@@ -38,5 +40,15 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow);
 /// follow them, are left out. It contains the bounds, u, lambda and active, which contact.csv and
 /// the contact zone need, and no matrices.
 Result normal_contact(const Result& result);
+
+/// The contact of a solved scene, on an obstacle or between two bodies.
+struct ContactResults {
+  Eigen::MatrixX3d table;  ///< a row per bound: x, distance, pressure (measure/contact_zone.hpp)
+  ContactZone zone;
+  ContactForce force;  ///< its tangential force is set for a model with friction
+};
+/// Returns the contact of a result; empty for a scene without contact. Between two bodies the force
+/// is that on the upper body.
+std::optional<ContactResults> contact_results(const SceneFile& file, const Result& result);
 
 }  // namespace antilock
