@@ -101,6 +101,12 @@ const Row rows[] = {
     {"upper string", "upper string", "", {blue, circle, 9}},
     {"lower string", "lower string", "", {vermillion, square, 5}},
     {"floor", "floor", "", {grey, circle, 2}},
+    // two blocks whose meshes do not match, and the layer between two blocks
+    {"mortar", "mortar", "", {blue, circle, 6}},
+    {"node to segment", "node to segment", "", {indigo, square, 5}},
+    {"P1 in rows", "$P_1$, layer in rows", "", {vermillion, square, 10}},
+    {"CR in rows", "Crouzeix–Raviart, layer in rows", "", {purple, triangle, 8.5}},
+    {"P1 in columns", "$P_1$, layer in columns", "", {olive, down_triangle, 6}},
     // solvers, and the two ways to hold the stiff form
     {"split form", "split form", "", {blue, circle, 10.5}},
     {"cure in 20 lines", "cure in 20 lines", "", {sky, square, 3.5}},

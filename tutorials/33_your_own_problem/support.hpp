@@ -115,6 +115,22 @@ inline Table touching_table(const Strings& s, const Eigen::VectorXd& u,
   return table;
 }
 
+/// Returns the pressures between two blocks, at the inner vertices of the lower one: those
+/// of the patch test (mortar, node to segment), and those below the layer (P1 without
+/// columns, Crouzeix-Raviart, P1 with columns). Each argument has the rows x, distance,
+/// pressure. In the patch test the ends are free and have rows of their own. For
+/// Crouzeix-Raviart the pressure at a vertex is the mean of those of the edges beside it.
+inline Table blocks_table(const Eigen::MatrixX3d& mortar, const Eigen::MatrixX3d& nodes,
+                          const Eigen::MatrixX3d& locked,
+                          const Eigen::MatrixX3d& nonconforming,
+                          const Eigen::MatrixX3d& columns) {
+  Table table({"x", "mortar", "node_to_segment", "P1", "CR", "P1_columns"});
+  for (Eigen::Index i = 0; i < columns.rows(); ++i)
+    table.add({columns(i, 0), mortar(i + 1, 2), nodes(i + 1, 2), locked(i, 2),
+               (nonconforming(i, 2) + nonconforming(i + 1, 2)) / 2, columns(i, 2)});
+  return table;
+}
+
 /// A place of [0, 1] and its weight.
 struct Place {
   double x, weight;
