@@ -207,7 +207,7 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
 // one per unknown on $Γ_C$, and a motion *without strain* is one that the stiff form does
 // not see. So "3 of 3, then 7 of 7" says: the values at all 3, then at all 7 free points of
 // $Γ_C$ can be chosen freely without a strain. "0 of 3, then 0 of 7" says that none of them
-// can. A *compliance* is here the class parameter, $ε^2$.
+// can. A *compliance* is here $ε^2$, one over the stiffness of the layer.
 //
 // :figure: jitter
 //
