@@ -114,8 +114,8 @@
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/measure/residual.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
-#include "course/named_row.hpp"
 
 using namespace antilock;
 using tutorial::Exact;

@@ -105,7 +105,7 @@
 #include <numbers>
 
 #include "antilock/certificate/exact_errors.hpp"
-#include "course/named_row.hpp"
+#include "course/add_row.hpp"
 #include "support.hpp"
 
 using namespace antilock;

@@ -119,7 +119,7 @@
 // part $S^-$ of $|e|_a$ in the layer is at least of size $|J| k^{3/4}$ as $h → 0$.
 // :figure: bend
 
-#include "course/named_row.hpp"
+#include "course/add_row.hpp"
 #include "support.hpp"
 
 using namespace antilock;
