@@ -167,9 +167,16 @@ Result PressedModel<Block>::solve(const SceneFile& file, const Space& space,
   Result result{.space = space, .problem = problem(file.scene, space)};
   if (coulomb > 0) {
     const std::vector<FrictionPair> pairs = friction_pairs(result.problem, space);
-    CoulombSolution found = coulomb_friction(result.problem, pairs, {coulomb}, solver);
-    result.solution = std::move(found.solution);
-    result.coulomb = found.report;
+    try {
+      CoulombSolution found = coulomb_friction(result.problem, pairs, {coulomb}, solver);
+      result.solution = std::move(found.solution);
+      result.coulomb = found.report;
+    } catch (const NotConverged& failure) {
+      const std::optional<LockingReport> locking = locking_report(file, space);
+      if (!locking || locking->warning.empty()) throw;
+      throw NotConverged(failure.what() + ("; " + locking->warning), failure.reached,
+                         failure.steps);
+    }
   } else {
     result.solution = solver(result.problem);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "antilock/core/error.hpp"
@@ -46,12 +47,14 @@ void set_limits(VariationalInequality& problem, const std::vector<FrictionPair>&
   }
 }
 
-[[noreturn]] void refuse(const CoulombOptions& options, double change, int steps) {
+[[noreturn]] void refuse(const CoulombOptions& options, double change,
+                         const FixedPointReport& report, const std::string& why) {
   throw NotConverged(
-      fmt::format("Coulomb friction: the fixed point does not contract: step {} changes the force "
-                  "limits by {:.1e} of their sum; accepted: a coefficient below {:g}",
-                  steps, change, options.coefficient),
-      change, steps);
+      fmt::format(
+          "Coulomb friction: the fixed point {}: step {} changes the force limits by {:.1e} "
+          "of their sum; accepted: a coefficient below {:g}",
+          why, report.steps, change, options.coefficient),
+      change, report.steps);
 }
 
 }  // namespace
@@ -62,7 +65,7 @@ CoulombSolution coulomb_friction(
     const std::function<Solution(const VariationalInequality&)>& solver) {
   check_arguments(problem, pairs, options);
   constexpr int most_without_progress = 3;
-  constexpr double slowest = 0.99;  // at this contraction a digit costs 230 steps
+  constexpr double slowest = 0.99;             // at this contraction a digit costs 230 steps
   constexpr double largest_contraction = 0.9;  // of the estimate of the distance
   Eigen::VectorXd limits = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(pairs.size()));
   FixedPointReport report;
@@ -82,11 +85,13 @@ CoulombSolution coulomb_friction(
     relative = total > 0 ? change / total : 1;
     const bool progress = report.steps == 1 || change < slowest * previous;
     without_progress = progress ? 0 : without_progress + 1;
-    if (without_progress == most_without_progress) refuse(options, relative, report.steps);
+    if (without_progress == most_without_progress)
+      refuse(options, relative, report, "does not contract");
     previous = change;
     limits = next;
   }
-  refuse(options, relative, report.steps);
+  refuse(options, relative, report,
+         fmt::format("contracts too slowly, by the factor {:.2g} per step", report.contraction));
 }
 
 }  // namespace antilock

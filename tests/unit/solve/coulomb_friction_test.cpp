@@ -60,6 +60,15 @@ TEST(Coulomb, IsRefusedWhereTheFixedPointDoesNotContract) {
   EXPECT_EQ(failure.steps, 6);
 }
 
+TEST(Coulomb, IsRefusedWhereTheFixedPointContractsTooSlowly) {
+  VariationalInequality problem = pulled_point();
+  // 0.9^100 is 3e-5
+  const NotConverged failure = thrown<NotConverged>([&] { solved(problem, 0.9); });
+  EXPECT_NE(std::string(failure.what()).find("by the factor 0.9 per step"), std::string::npos)
+      << failure.what();
+  EXPECT_EQ(failure.steps, 100);
+}
+
 TEST(Coulomb, NeedsNoFrictionWhereNothingTouches) {
   VariationalInequality problem = pulled_point();
   problem.load(0) = 10;  // lifted
