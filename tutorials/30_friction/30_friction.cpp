@@ -95,11 +95,56 @@
 // incompressible rubber. And the block, shortened by the push, *bulges outwards*, the more
 // so the less it can be compressed. For small λ the first wins, for large λ the second.
 // Between, they cancel.
+//
+// ## Coulomb's law, step by step
+//
+// In Coulomb's law the bound is not given: $g = F N$, with a coefficient $F$ and the force
+// $N$ of the same solution. So the law is no inequality of the class (1). It is a fixed
+// point: solve with $g$, put $F N$ in the place of $g$, and solve again (J. Nečas, J.
+// Jarušek and J. Haslinger, *Boll. Un. Mat. Ital.* 17-B, 1980). By which factor does a step
+// reduce the error of $g$?
+//
+// Let $u$ and $w$ be the solutions for the bounds $g$ and $q$, and $d = u - w$. Put $w$
+// into the inequality of $u$, put $u$ into that of $w$, and add the two:
+//
+// $$ a(d, d) ≤ \sum (g_i - q_i)(|w_{x,i}| - |u_{x,i}|) ≤ \sum |g_i - q_i| |d_{x,i}|. $$
+//
+// By Korn's inequality $\sqrt{a(d, d)} ≤ C ‖g - q‖$, with the norm of $L^2(Γ_C)$. It
+// remains to bound the change of $N$ by $d$. Continue any $v_y$ on $Γ_C$ into the block,
+// with $v_x = 0$ on $Γ_C$. The change of $N$ does the work $a(d, v)$ on it, because $T$
+// does none. If $v$ can be chosen without a change of its volume, then this work is at most
+// $C \sqrt{a(d, d)}$ times the norm of $v_y$ in $H^{1/2}(Γ_C)$, and $C$ does not depend on
+// λ. Crouzeix-Raviart has such a $v$: the interpolant of a continuation by its means over
+// edges, which is the argument for (ii). This bounds the change of $N$ in the dual norm,
+// which is weaker than that of $L^2$ by half a power of $h$ on functions that are constant
+// per edge. So
+//
+// $$ ‖F N(g) - F N(q)‖ ≤ F C h^{-1/2} ‖g - q‖. $$
+//
+// The steps contract for $F < h^{1/2}/C$, at every λ. (J. Haslinger, *Math. Meth. Appl.
+// Sci.* 5, 1983, has this for one λ.) The proof does not say whether a larger $F$ fails.
+//
+// P1 on parallel triangles has no such $v$ at $λ = ∞$. Those of its functions that keep all
+// volumes are sums of two kinds: a diagonal of the mesh moves along itself, with
+// $v_x = v_y$, or a row of vertices moves sideways (the dimension of the kernel is that of
+// both together). The strain of the first kind is $ε_{xx} = -ε_{yy}$, that of the second is
+// $ε_{xy}$, so that $a$ of one of each is 0. Hence the equation of the diagonal that starts
+// at contact unknown $i$ is
+//
+// $$ N_i + T_i = c_i, $$
+//
+// where $c_i$ depends on the motion of the diagonals alone. This motion is given at the
+// unknowns in contact, and no force acts on the others. Where all of them slip to the
+// right, $T_i = -g_i$, and a step is $N_i ← c_i + F N_i$. So **as long as the same unknowns
+// touch and slip, a step multiplies the error by $F$, exactly**. With $F ≥ 1$ it does not
+// shrink. The locked block is a wedge that friction jams.
 
 #include <map>
 
+#include "antilock/core/error.hpp"
 #include "antilock/io/write_freefem_mesh.hpp"
 #include "antilock/models/bar_on_a_floor.hpp"
+#include "antilock/solve/coulomb_friction.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
@@ -200,6 +245,52 @@ void judge(const Table& checks, const Table& forces, tutorial::Report& report) {
                locked.number("N off"));
 }
 
+// ### Coulomb
+// `coulomb_friction` of the library calls the solver with one bound $g$ after the other.
+// Here the solver notes each $g$, so that the changes can be drawn also where the steps do
+// not contract and the library gives up. All steps share one factor. The rubber is
+// incompressible.
+void slip_by_coulomb(const Rubber& rubber, double coefficient, Table& steps) {
+  const Space x(rubber.mesh, rubber.in_x), y(x, rubber.in_y);
+  const auto none = [](double) { return 0.0; };
+  VariationalInequality problem = pressed(rubber, {x, y}, none, 0);
+  Sweep sweep(problem);
+  std::vector<Eigen::VectorXd> bounds;
+  const auto noted = [&](const VariationalInequality& tresca) {
+    bounds.push_back(tresca.bounds.force_limit.tail(tresca.bounds.count() / 2));
+    sweep.set_force_limit(tresca.bounds.force_limit);
+    return sweep.solve();
+  };
+  bool contracts = true;
+  try {
+    coulomb_friction(problem, tutorial::friction_pairs(problem), {coefficient}, noted);
+  } catch (const NotConverged&) {
+    contracts = false;
+  }
+  tutorial::add_steps(rubber, coefficient, contracts, bounds, steps);
+}
+
+void judge_coulomb(const Table& steps, tutorial::Report& report) {
+  const Table locked = steps.filter("locks", 1), cr = steps.filter("locks", 0);
+  // the solves are exact to some 1e-10, and step 4 changes g by 1e-3 of its sum
+  report.claim_within(locked.filter("F", 0.1).filter("step", 4).number("ratio"), 0.1 - 1e-5,
+                      0.1 + 1e-5,
+                      "(proved) locked P1, F = 0.1: step 4 multiplies the change of g by");
+  for (const double coefficient : {0.1, 0.3, 1.0}) {
+    const Table own = cr.filter("F", coefficient);
+    report.claim(
+        own.min("contracts") == 1 && own.max("ratio") < 0.6,
+        "(observed) Crouzeix-Raviart, F = {}: {} steps, each multiplies the change "
+        "of g by at most {:.2f}",
+        coefficient, own.last("step"), own.max("ratio"));
+  }
+  const Table wedge = locked.filter("F", 1);
+  report.claim(wedge.max("contracts") == 0,
+               "(observed) locked P1, F = 1: given up after {} steps, the last of which "
+               "changes g by {:.0f} % of its sum",
+               wedge.last("step"), 100 * wedge.last("change"));
+}
+
 void rub(const tutorial::Options& options, tutorial::Report& report) {
   Table checks(tutorial::check_columns), forces(tutorial::floor_columns);
   std::map<std::string, Eigen::MatrixX3d> floors;  // where each sticks and slips
@@ -230,7 +321,21 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
     floors[rubber.file] = tutorial::on_floor(x, problem, solution);
     if (rubber.locks) write_freefem_mesh(options.out / "mesh.freefem.msh", rubber.mesh);
   }
+  Table steps(tutorial::step_columns);
+  for (const double coefficient : {0.1, 0.3, 1.0})
+    for (const Rubber& rubber : tutorial::structured_rubbers(options.cells)) {
+      // Kouhia-Stenberg has its bounds of u_x and u_y at different places
+      if (rubber.file != "p1_right" && rubber.file != "cr") continue;
+      report.stage(fmt::format("Coulomb, F = {}: {}", coefficient, rubber.name));
+      slip_by_coulomb(rubber, coefficient, steps);
+    }
   report.finish();
+  steps.filter("locks", 1)
+      .filter("F", 1)
+      .select({"step", "change", "ratio"})
+      .print("locked P1, F = 1");
+  steps.write(options.out / "coulomb.csv");
+  judge_coulomb(steps, report);
   tutorial::show_friction(options.out, checks, forces, options.cells, g,
                           floors.at("p1_right"), floors.at("p1_crossed"));
   judge(checks, forces, report);
@@ -259,10 +364,18 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
 // are eliminated. In seconds, which depend on the machine, Uzawa took 1.1 to 2.3 times as
 // long in three runs.
 //
+// With Coulomb's law and incompressible rubber, Crouzeix-Raviart takes 5, 7 and 11 steps
+// for $F = 0.1$, 0.3 and 1. Each of them multiplies the change of $g$ by at most 0.04, 0.09
+// and 0.25. Locked P1 converges with the factor 0.1 for $F = 0.1$. For $F = 1$ its $g$
+// goes on changing by two thirds of its sum. Without the theory above this looks like a
+// failure of the solver. It is another symptom of locking.
+// :output: locked P1, F = 1
+// :figure: coulomb_steps
+//
 // ## Exercises
 //
-// 1. In Coulomb's law the bound is $g = F N$, and $N$ is not known before. Start from $N$
-//    without friction and put $F$ times the last $N$ into $g$, $F = 1/4$. By how much does a step reduce the change of $N$?
+// 1. Start Coulomb's law with $F = 1/4$ from $N$ without friction. By how much does a step
+//    reduce the change of $N$?
 // 2. A bar of stiffness 1 lies on a floor with $g = 1$. Its end at $x = 1$ is pulled by the
 //    force 1/2. How far does it slip, and by how much does its end move? Three lines of A1, one bound per node: no block is needed.
 // 3. On paper: where is $T$ the multiplier of a constraint, where is it data?

@@ -9,6 +9,7 @@
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/coulomb_friction.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/study/sweep.hpp"
 #include "antilock/study/table.hpp"
@@ -101,6 +102,31 @@ inline Eigen::MatrixX3d on_floor(const Space& in_x, const VariationalInequality&
   curves.col(1) = solution.lambda.tail(lengths.size()).cwiseQuotient(lengths);
   curves.col(2) = solution.u(problem.bounds.unknowns).tail(lengths.size());
   return curves;
+}
+
+/// The bounds of each contact unknown with friction. Those of u_y stand before those of
+/// u_x. Both components need one element.
+inline std::vector<FrictionPair> friction_pairs(const VariationalInequality& problem) {
+  const int count = problem.bounds.count() / 2;
+  std::vector<FrictionPair> pairs;
+  for (int i = 0; i < count; ++i) pairs.push_back({i, count + i});
+  return pairs;
+}
+
+/// One row per step of Coulomb's fixed point: the change of the bounds g, the sum of the
+/// absolute values relative to the sum of g, and its ratio to that of the step before.
+inline const std::vector<std::string> step_columns{"element",   "locks", "F",      "panel",
+                                                   "contracts", "step",  "change", "ratio"};
+inline void add_steps(const Rubber& rubber, double coefficient, bool contracts,
+                      const std::vector<Eigen::VectorXd>& bounds, Table& steps) {
+  double before = 0;
+  for (std::size_t k = 1; k < bounds.size(); ++k) {
+    const double moved = (bounds[k] - bounds[k - 1]).lpNorm<1>();
+    if (moved == 0) return;
+    steps.add({rubber.name, rubber.locks, coefficient, fmt::format("$F = {}$", coefficient),
+               contracts, k, moved / bounds[k].sum(), before > 0 ? moved / before : 0.0});
+    before = moved;
+  }
 }
 
 /// Prints the tables; writes zones.csv, where P1 on parallel triangles (`locked`) and on
