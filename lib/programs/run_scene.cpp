@@ -61,7 +61,8 @@ who asks; ANTILOCK_KEEP_KERNELS=1 leaves both);
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
 motion that is lost at least (proved; null where nothing is proved), kept is 1 - lost_energy;
 contact_force, with contact, is the resultant of the obstacles' forces on the body: normal (upwards), tangential (to the right; null without friction) and
-moment (anticlockwise, about x = 0), in the unit of f times length^2 and length^3. contact has the range of x from ... to of the unknowns in
+moment (anticlockwise, about x = 0), in the unit of f times length^2 and length^3; normal_proved and moment_proved are the intervals
+that are proved, with an accuracy and where u is prescribed at no end of the contact boundary, else null. contact has the range of x from ... to of the unknowns in
 contact, and from_within and to_within: the interval between the end of that range and the next unknown;
 coulomb, with that key, has the steps of the fixed point and the contraction of the last one; where it does not contract: status 3;
 compliance is {value, lower, upper}: the work L(u) of the loads, with an accuracy and where gap and displacements are 0 its proved bounds;
@@ -162,16 +163,16 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   CertifiedSolution found = solve_scene(file, {[&](const std::string& what) { report.stage(what); },
                                                follower(asked.most_seconds), level_done});
   watch.lap();
-  const SceneSummary summary = summary_of(file, found.result);
+  const CertifiedSolution* const certified = found.history.empty() ? nullptr : &found;
+  const SceneSummary summary = summary_of(file, found.result, certified);
   found.result.seconds.solve += watch.lap();
   if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
       stiff != nullptr && nlohmann::json::parse(file.json)["layer"].contains("thickness"))
     fmt::print("  layer: {:g} before a_x^-, {} before a_y^-\n", stiff->s, across(*stiff));
   report.stage("files");
-  write_scene_results(asked.out, file, found.result, summary,
-                      found.history.empty() ? nullptr : &found, asked.files);
+  write_scene_results(asked.out, file, found.result, summary, certified, asked.files);
   report.finish();
-  fmt::print("{}", force_table(file, summary, found.history.empty() ? nullptr : &found));
+  fmt::print("{}", force_table(file, summary, certified));
   if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
   const std::string name = (asked.out / "solution").string();
   const char* const kind = std::visit(

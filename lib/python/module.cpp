@@ -114,8 +114,9 @@ py::tuple run(const std::string& text, const std::string& folder) {
   CertifiedSolution found = [&] {
     const Unlocked unlocked;
     CertifiedSolution answered = solve_scene(file, {{}, not_interrupted, {}});
-    summary = summary_text(file, summary_of(file, answered.result), answered.result.seconds, 0,
-                           answered.history.empty() ? nullptr : &answered);
+    const CertifiedSolution* const certified = answered.history.empty() ? nullptr : &answered;
+    summary = summary_text(file, summary_of(file, answered.result, certified),
+                           answered.result.seconds, 0, certified);
     return answered;
   }();
   Result& answer = found.result;

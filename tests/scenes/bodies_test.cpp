@@ -140,8 +140,8 @@ TEST(Bodies, HoldPullAndSpringOnTheEdgesOfAGroup) {
 }
 
 // u = (0.1 + 0.1 x)(1 - y) is harmonic, and its traction on the sides is -0.1 (1 - y) and 0.1 (1 -
-// y). The obstacle holds it up with the pressure -u_y = 0.1 + 0.1 x: force 0.15, moment 1/20 + 1/30.
-// It is in the space from P2 on, where lambda_i = int p phi_i.
+// y). The obstacle holds it up with the pressure -u_y = 0.1 + 0.1 x: force 0.15, moment 1/20 +
+// 1/30. It is in the space from P2 on, where lambda_i = int p phi_i.
 TEST(Bodies, KnowForceAndMomentOfTheObstacleBelow) {
   for (const std::string element : {"P2", "P3"}) {
     const TemporaryFolder folder;
@@ -157,6 +157,44 @@ TEST(Bodies, KnowForceAndMomentOfTheObstacleBelow) {
     EXPECT_EQ(s["contact"]["from_within"], (nlohmann::json{0.0, 0.0})) << element;
     EXPECT_EQ(s["contact"]["to_within"], (nlohmann::json{1.0, 1.0})) << element;
   }
+}
+
+// The same with an accuracy: phi = 1 - y is 1 on Gamma_C and 0 where u is prescribed, and |phi|_a
+// is 1. So the half width of the interval is the bound of the flux, which is some 0.1 |u|_a here.
+TEST(Bodies, ProveForceAndMomentOfTheObstacleBelow) {
+  const TemporaryFolder folder;
+  const SceneRun run(scene_on(named_square(folder, 4),
+                              "[contact]\ngap = \"-0.1 - 0.1*x\"\n" +
+                                  edge("left", "traction = \"-0.1*(1 - y)\"") +
+                                  edge("right", "traction = \"0.1*(1 - y)\"") +
+                                  edge("top", "displacement = \"0\""),
+                              "CR") +
+                     "accuracy = 0.1\n");
+  const auto s = run.summary();
+  const auto& force = s["contact_force"];
+  const double energy_norm = std::sqrt(0.07 / 3 + 0.01 / 3);  // int u_y^2 + int u_x^2
+  for (const auto& [name, exact, phi] :
+       {std::tuple{"normal", 0.15, 1.0}, {"moment", 1.0 / 20 + 1.0 / 30, 0.8}}) {
+    const auto& proved = force[std::string(name) + "_proved"];
+    ASSERT_TRUE(proved.is_array()) << name << ": " << run.outcome.err;
+    const double low = proved[0], high = proved[1];
+    EXPECT_LE(low, exact) << name;
+    EXPECT_GE(high, exact) << name;
+    EXPECT_NEAR((low + high) / 2, force[name].get<double>(), 1e-9) << name;
+    EXPECT_GT(high - low, 0.01 * energy_norm * phi) << name;
+    EXPECT_LT(high - low, 2 * 0.15 * energy_norm * phi) << name;
+  }
+}
+
+// Clamped sides end at Gamma_C: no function of finite energy is 1 on it and 0 beside it.
+TEST(Bodies, ProveNoForceBesideAClampedEnd) {
+  const SceneRun run(
+      "[load]\nf = \"-1\"\n[contact]\n[mesh]\nkind = \"structured\"\ncells = 4\n"
+      "[method]\naccuracy = 0.3\n");
+  const auto s = run.summary();
+  EXPECT_GT(s["contact_force"]["normal"].get<double>(), 0);
+  EXPECT_TRUE(s["contact_force"]["normal_proved"].is_null());
+  EXPECT_TRUE(s["contact_force"]["moment_proved"].is_null());
 }
 
 // u = -0.1 (1 - y): the obstacle above presses down with the force 0.1.

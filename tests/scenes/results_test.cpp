@@ -54,9 +54,9 @@ void expect_interface(const std::filesystem::path& results) {
   const bool has_layer = std::count(effects.begin(), effects.end(), "layer") == 1;
   const bool has_contact = std::count(effects.begin(), effects.end(), "contact") == 1;
   EXPECT_EQ(effects.size(), static_cast<std::size_t>(has_layer + has_contact));
-  Keys top = {"element", "solver", "epsilon",    "h",    "dofs",    "effects", "energy", "u_max",
-              "u_min",   "kkt",    "iterations", "blas", "seconds", "warning", "scene",
-              "compliance"};
+  Keys top = {"element", "solver",  "epsilon", "h",         "dofs",       "effects",
+              "energy",  "u_max",   "u_min",   "kkt",       "iterations", "blas",
+              "seconds", "warning", "scene",   "compliance"};
   Keys written = {"summary.json", "solution.csv", "mesh.msh", "solution.vtu"};
   if (has_layer) top.insert("locking");
   if (has_contact) {
@@ -141,7 +141,8 @@ void expect_interface(const std::filesystem::path& results) {
   }
   EXPECT_EQ(keys(s["contact"]),
             (Keys{"points", "active", "from", "to", "from_within", "to_within"}));
-  EXPECT_EQ(keys(s["contact_force"]), (Keys{"normal", "tangential", "moment", "unit"}));
+  EXPECT_EQ(keys(s["contact_force"]),
+            (Keys{"normal", "normal_proved", "tangential", "moment", "moment_proved", "unit"}));
   const Csv table = read_csv(results / "contact.csv");
   const auto model = s["scene"].value("model", nlohmann::json::object());
   const bool rubs = model.contains("friction") || model.contains("coulomb");

@@ -107,11 +107,13 @@ Json certificate(const MethodRequest& method, const CertifiedSolution& certified
           {"levels", levels}};
 }
 
-/// Normal and tangential force, and the moment.
-Json contact_force_of(const ContactForce& force) {
+/// Normal and tangential force, the moment, and the intervals that are proved.
+Json contact_force_of(const ContactForce& force, const std::optional<ContactForceBounds>& proved) {
   return {{"normal", finite("the contact force", force.normal)},
+          {"normal_proved", or_null(proved ? Interval(proved->normal) : Interval())},
           {"tangential", or_null(force.tangential)},
           {"moment", finite("the moment of the contact force", force.moment)},
+          {"moment_proved", or_null(proved ? Interval(proved->moment) : Interval())},
           {"unit", "that of f times length^2; of the moment times length^3"}};
 }
 
@@ -138,6 +140,10 @@ std::string text_of(const Interval& interval) {
   return interval ? fmt::format("{:.6g} to {:.6g}", interval->first, interval->second) : "";
 }
 
+std::string proved_text_of(const Interval& interval) {
+  return text_of(interval) + (interval ? " (proved)" : "");
+}
+
 /// x, gap and pressure, with the tangential force per length behind them where there is friction.
 void write_contact(const std::filesystem::path& path, const Eigen::MatrixX3d& table,
                    const std::optional<Eigen::VectorXd>& friction) {
@@ -152,7 +158,8 @@ void write_contact(const std::filesystem::path& path, const Eigen::MatrixX3d& ta
 
 }  // namespace
 
-SceneSummary summary_of(const SceneFile& file, const Result& result) {
+SceneSummary summary_of(const SceneFile& file, const Result& result,
+                        const CertifiedSolution* certified) {
   const Solution& solution = result.solution;
   SceneSummary s;
   s.h = mesh_width(file, result.space.mesh());
@@ -165,6 +172,9 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
   if (const auto contact = contact_results(file, result)) {
     s.zone = contact->zone;
     s.force = contact->force;
+  }
+  if (certified != nullptr) {
+    s.proved_force = contact_force_bounds(file.scene, result, certified->certificate);
   }
   const Eigen::Index size = result.space.size(), components = solution.u.size() / size;
   s.at.resize(static_cast<Eigen::Index>(file.at.size()), 2 + components);
@@ -207,10 +217,13 @@ std::string force_table(const SceneFile& file, const SceneSummary& summary,
   std::string table = fmt::format("  {:<22} {:>12}  {:<32} {}\n", "", "value", "interval", "unit");
   if (has_contact(file)) {
     const ContactForce& force = summary.force;
-    table += table_line("contact force, upwards", force.normal, "", force_unit);
+    const auto& proved = summary.proved_force;
+    const Interval normal = proved ? Interval(proved->normal) : Interval();
+    const Interval moment = proved ? Interval(proved->moment) : Interval();
+    table += table_line("contact force, upwards", force.normal, proved_text_of(normal), force_unit);
     if (force.tangential)
       table += table_line("friction, to the right", *force.tangential, "", force_unit);
-    table += table_line("moment, anticlockwise", force.moment, "", moment_unit);
+    table += table_line("moment, anticlockwise", force.moment, proved_text_of(moment), moment_unit);
     const ContactZone& zone = summary.zone;
     if (zone.from && zone.to) {
       table += table_line("contact begins at", *zone.from, text_of(zone.from_within), "length");
@@ -218,9 +231,8 @@ std::string force_table(const SceneFile& file, const SceneSummary& summary,
     }
   }
   const Interval proved = certified != nullptr ? proved_compliance(*certified) : Interval();
-  const std::string interval = text_of(proved) + (proved ? " (proved)" : "");
-  table +=
-      table_line("compliance L(u)", summary.compliance, interval, "that of f u times length^2");
+  table += table_line("compliance L(u)", summary.compliance, proved_text_of(proved),
+                      "that of f u times length^2");
   return table;
 }
 
@@ -246,7 +258,7 @@ std::string summary_text(const SceneFile& file, const SceneSummary& summary,
                     {"to", or_null(zone.to)},
                     {"from_within", or_null(zone.from_within)},
                     {"to_within", or_null(zone.to_within)}};
-    s["contact_force"] = contact_force_of(summary.force);
+    s["contact_force"] = contact_force_of(summary.force, summary.proved_force);
     s["kkt"] = {{"min_gap", summary.kkt.min_gap},
                 {"min_pressure", summary.kkt.min_pressure},
                 {"complementarity", summary.kkt.complementarity},

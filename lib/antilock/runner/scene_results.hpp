@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "antilock/adapt/solve_to.hpp"
+#include "antilock/certificate/contact_force_bounds.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/result.hpp"
 #include "antilock/runner/scene_file.hpp"
@@ -32,6 +33,8 @@ struct SceneSummary {
   double compliance = 0;  ///< L(u), the work of the loads on u
   ContactZone zone;       ///< used only for a scene with contact
   ContactForce force;     ///< used only for a scene with contact
+  /// With an accuracy, and where contact_force_bounds proves something.
+  std::optional<ContactForceBounds> proved_force;
   Kkt kkt;
   int contact_steps = 0, corrections = 0;
   std::optional<LockingReport> layer;
@@ -46,8 +49,10 @@ struct SceneSummary {
   };
   std::optional<Parallel> parallel;
 };
-/// Returns the summary of a result. Throws Error for a point of [at] outside the mesh.
-SceneSummary summary_of(const SceneFile& file, const Result& result);
+/// Returns the summary of a result. `certified` is given for a scene with an accuracy, and contains
+/// the result. Throws Error for a point of [at] outside the mesh.
+SceneSummary summary_of(const SceneFile& file, const Result& result,
+                        const CertifiedSolution* certified = nullptr);
 
 /// Returns the interval in which the certificate proves the compliance L(u) of the exact solution
 /// to lie. Where gap and prescribed displacements are 0, K is a cone with the vertex 0: v = 0 and

@@ -89,6 +89,7 @@ def run(scene: str, folder: str = ".") -> tuple[dict[str, np.ndarray], dict[str,
     points N x 2 and u N, one per unknown; p R; vertices V x 2 and triangles T x 3; contact C x 3 (x, gap, pressure).
     summary["contact_force"] has the resultant of the obstacle's forces on the body: normal (upwards), tangential (to the right), moment
     (anticlockwise, about x = 0), in the unit of f times length^2 and length^3. summary["compliance"] is the work of the loads.
+    normal_proved and moment_proved are proved intervals, with an accuracy and where u is prescribed at no end of the contact boundary.
     u is the value at the point. For element = "BDM1-hybrid", whose unknowns are means, mean N holds the unknowns.
     """
     arrays, summary = _antilock.run(arguments.scene(scene), arguments.folder(folder))
