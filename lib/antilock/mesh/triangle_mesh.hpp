@@ -124,9 +124,10 @@ double body_size(const TriangleMesh& mesh);
 ///
 /// Throws Error for indices out of range, values that are not finite, a single inverted triangle,
 /// degenerate triangles (twice the area below 1e-14 of the longest edge squared), unused vertices,
-/// two vertices at one place unless they are on edges of two named groups, edges of three triangles or of overlapping ones, boundary edges without a tag
-/// (as at a hanging node), tagged edges that are no edge of the mesh, a mesh without a body, and a
-/// mesh without an edge that is clamped or in a named group.
+/// two vertices at one place unless they are on edges of two named groups, edges of three triangles
+/// or of overlapping ones, boundary edges without a tag (as at a hanging node), tagged edges that
+/// are no edge of the mesh, a mesh without a body, and a mesh without an edge that is clamped or in
+/// a named group.
 TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<Region> region,
                                 const std::vector<TaggedEdge>& tagged_edges,
                                 const std::string& where, const std::vector<int>& surface = {});

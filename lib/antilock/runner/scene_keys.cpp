@@ -104,8 +104,9 @@ std::vector<SceneKey> contact_keys() {
        .does = "with two bodies: the group of the side whose unknowns have the constraints",
        .accepted = "the name of a group of curves of the mesh file",
        .line = 3, .example = "\"lower\"",
-       .comment = "two bodies of a mesh file, which need not match: the groups of their sides on one\n"
-                  "straight line, u above - u below >= -gap(x). The slave is the shorter side, or the finer"},
+       .comment = "two bodies of a mesh file, which need not match: the groups of their sides on\n"
+                  "one straight line, u above - u below >= -gap(x); the slave is the shorter\n"
+                  "side, or the finer"},
       {.section = "contact", .name = "master", .type = Type::text,
        .does = "with two bodies: the group of the other side, at least as long",
        .accepted = "the name of a group of curves of the mesh file",
