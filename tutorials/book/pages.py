@@ -21,6 +21,7 @@ from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, 
 from katex import TAG
 from library import Library
 from links import linked, term_anchor
+from notebook import text_of as notebook_of
 from runs import expected
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -274,6 +275,12 @@ class Book:
                 for path in sorted(ROOT.glob(pattern)):
                     kept.writestr(zipfile.ZipInfo(str(path.relative_to(ROOT))), path.read_bytes(), zipfile.ZIP_DEFLATED)
 
+    def notebook(self, page):
+        """The notebook of the how-to for Python, and the lines that link to it."""
+        (self.out / "howto_python.ipynb").write_text(notebook_of(page))
+        return ["", "To keep: {download}`this page as a Jupyter notebook <howto_python.ipynb>`, "
+                "whose cells you can change.", ""]
+
     def theory(self):
         text = (ROOT / "tutorials/README.md").read_text()
         section = re.search(r"## The theory as experiments\n(.*?)(?=\n## |\Z)", text, re.S)
@@ -333,10 +340,12 @@ class Book:
         for source in self.sources:
             self.chapter(source)
         for name in EXTRA + TEACHING:
-            lines = (ROOT / f"tutorials/guides/{name}.md").read_text().splitlines()
+            page = (ROOT / f"tutorials/guides/{name}.md").read_text()
+            lines = page.splitlines()
             if name == "glossary":
                 lines = list(map(self.glossary_line, lines))
-            self.write(name, self.linked(lines, ROOT / "tutorials/guides", signs))
+            more = self.notebook(page) if name == "howto_python" else []
+            self.write(name, self.linked(lines, ROOT / "tutorials/guides", signs) + more)
         self.sources_to_keep()
         self.theory()
         self.playground()
