@@ -8,11 +8,13 @@ import base64
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+from collections import Counter
 from pathlib import Path
 from urllib.parse import unquote, urlparse
 
@@ -26,6 +28,7 @@ except ImportError:
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tutorials/book"))
+import pdf as whole_book  # noqa: E402
 from course import read as read_course  # noqa: E402
 
 BOOK, NUMBERS = Path(sys.argv[1]).resolve(), sys.argv[2]
@@ -403,6 +406,103 @@ class Predictions(Book):
         finally:
             self.browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
             self.browser.get("about:blank")
+
+
+# The parts of a printed page that do not stand on it whole. A formula may end half a pixel outside,
+# because Chromium rounds positions of text to pixels.
+CUT = """
+  const page = document.querySelector("article").getBoundingClientRect();
+  const outside = (part) => {
+    const box = part.getBoundingClientRect();
+    return box.width > 0 && (box.right > page.right + 0.5 || box.left < page.left - 0.5);
+  };
+  const scrolls = (part) => part.tagName === "PRE" && part.scrollWidth > part.clientWidth;
+  const parts = "article :is(.katex-html > *, pre, table, img, canvas, svg)";
+  return [...document.querySelectorAll(parts)]
+    .filter((part) => outside(part) || scrolls(part))
+    .map((part) => `${part.tagName} ${part.getAttribute("class")}: ${part.textContent.slice(0, 50)}`);"""
+
+
+class Print(Book):
+    """Pages on paper: printed by Chromium, and read by pdftotext."""
+    A4 = round((210 - 2 * 16) / 25.4 * 96)  # pixels between the margins of style.css
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        if not shutil.which("pdftotext"):
+            raise unittest.SkipTest("not compared: printed pages; Debian: poppler-utils")
+
+    def tearDown(self):
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
+    def text(self, pdf):
+        with tempfile.NamedTemporaryFile(suffix=".pdf") as file:
+            file.write(pdf)
+            file.flush()
+            self.assertIn("KaTeX_Math", self.said_by("pdffonts", file.name))
+            return self.said_by("pdftotext", "-raw", file.name, "-")
+
+    @staticmethod
+    def said_by(*command):
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+    def on_paper(self, page):
+        self.show(page)
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.turn(self.A4)
+        self.run_script("dispatchEvent(new Event('beforeprint'))")
+
+    def test_a_chapter_is_printed_with_its_code_and_formulas(self):
+        self.show("06_p1_unstructured")
+        code, formulas = self.run_script("""
+          return ["pre", ".katex-html"].map((name) =>
+            [...document.querySelectorAll(`article ${name}`)].map((part) => part.textContent));""")
+        printed = self.text(whole_book.printed(self.browser))
+        dense = re.sub(r"\s", "", printed)
+        for line in "\n".join(code).splitlines():
+            self.assertIn(re.sub(r"\s", "", line), dense)
+        letters = Counter(re.findall("[α-ωΓΣΩ∂∫]", "".join(formulas)))
+        self.assertGreater(letters["ε"], 20)
+        found = Counter(printed)
+        for letter, times in letters.items():
+            self.assertGreaterEqual(found[letter], times, letter)
+        # the sidebar, which names every chapter, is not printed
+        self.assertNotIn("38 Order two on any mesh", printed.replace("\n", " "))
+
+    def test_no_page_is_cut_at_its_margin(self):
+        for page in PAGES:
+            if not page.startswith("library_"):
+                with self.subTest(page=page):
+                    self.on_paper(page)
+                    self.assertEqual(self.run_script(CUT), [])
+
+    def test_a_figure_is_not_split_and_one_that_sleeps_shows_its_still(self):
+        self.on_paper("25_beam")
+        state = "return document.querySelector('#live-beam').dataset.state"
+        self.assertEqual(self.run_script(state), "asleep")
+        style = "return getComputedStyle(document.querySelector(arguments[0]))[arguments[1]]"
+        self.assertEqual(self.run_script(style, "#live-beam", "display"), "none")
+        self.assertEqual(self.run_script(style, "#live-beam + .live-paper", "display"), "block")
+        self.assertEqual(self.run_script(style, "figure.picture", "breakInside"), "avoid")
+        self.assertEqual(self.run_script(style, ".sidebar-drawer", "display"), "none")
+
+    def test_the_whole_book_has_every_page_and_links_within_it(self):
+        names = ["index", "06_p1_unstructured", "07_kernel"]
+        with tempfile.NamedTemporaryFile("w", suffix=".html") as page:
+            page.write(whole_book.whole(BOOK, names))
+            page.flush()
+            self.browser.get(Path(page.name).as_uri())
+            self.run_script(whole_book.JOIN)
+            self.assertEqual(self.browser.execute_async_script(whole_book.LOADED), [])
+            links, ids = self.run_script("""
+              return ["href", "id"].map((name) => [...document.querySelectorAll(`a[href], [id]`)]
+                .map((part) => part.getAttribute(name)).filter((value) => value !== null));""")
+        self.assertEqual(len(ids), len(set(ids)))
+        within = {link[1:] for link in links if not link.startswith("http")}
+        self.assertEqual(within - set(ids), set())
+        self.assertIn("07_kernel", within)
+        self.assertEqual(set(whole_book.names()) - set(PAGES), set())
 
 
 class Search(Book):

@@ -1,3 +1,11 @@
+// A live figure that the reader has not come near has not drawn anything yet. On paper its still
+// takes its place.
+for (const box of document.querySelectorAll(".live")) {
+  const still = box.querySelector("img")?.cloneNode();
+  if (!still) continue;
+  still.className = "live-paper";
+  box.after(still);
+}
 // On paper nothing is folded away.
 addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((part) => { part.open = true; }));
 // What is wider than the page scrolls in itself, also by the keyboard.

@@ -23,7 +23,8 @@ suppress_warnings = ["myst.header"]  # a step (###) stands where the program has
 html_theme = "furo"
 html_static_path = ["style.css", "book.js", "../../build/book-parts/static"]
 html_css_files = ["katex.css", "style.css"]
-html_js_files = [("book.js", {"defer": "defer"})]
+# before live.js, which changes the page
+html_js_files = [("book.js", {"defer": "defer", "priority": 400})]
 html_copy_source = html_use_index = False
 html_show_copyright = html_show_sphinx = False
 pygments_style = "xcode"  # of those with enough contrast
