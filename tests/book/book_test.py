@@ -5,12 +5,14 @@ Run: book_test.py BOOK LIVE_NUMBERS [unittest's options]     exit status 77 wher
 Screenshots of every page, wide and narrow, go to the folder BOOK_SCREENSHOTS, where that is set.
 """
 import base64
+import hashlib
 import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
 import time
 import unittest
@@ -505,6 +507,83 @@ class Print(Book):
         self.assertEqual(set(whole_book.names()) - set(PAGES), set())
 
 
+AXE = "4.14.1"
+AXE_SHA512 = ("FHfa+lmNjQZfJz1q8wKqIDwC6DExcHt/pkjNQb09a3NP"
+              "jCKg2rhu5qb2S4r76ASyFNNtuFooJpZe37OgudVGtQ==")
+# The rules of WCAG 2.2 at the levels A and AA, and those of axe-core itself. Debian has no package
+# of axe-core.
+RUN_AXE = """
+  const done = arguments[arguments.length - 1];
+  document.querySelectorAll("details").forEach((part) => { part.open = true; });
+  const runOnly = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"];
+  // Formulas are most of a page's elements. EveryPage compares their contrast and their MathML.
+  for (const formula of document.querySelectorAll(".katex")) {
+    formula.replaceWith(formula.querySelector("math").textContent);
+  }
+  axe.run(document, { resultTypes: ["violations"], runOnly }).then(({ violations }) =>
+    done(violations.map(({ id, nodes }) =>
+      `${id}: ${nodes.length} times, ${nodes[0].html.slice(0, 150)}`)));"""
+
+
+def axe_core():
+    """The source of axe-core, which `npm pack` fetches into the build folder.
+
+    Where npm does not deliver it, the test is left out. Where it has another hash, the test fails."""
+    archive = BOOK.parent / f"axe-core-{AXE}.tgz"
+    if not archive.exists():
+        pack = ["npm", "pack", f"axe-core@{AXE}", "--silent", "--pack-destination", archive.parent]
+        try:
+            subprocess.run(pack, capture_output=True, timeout=60, check=True)
+        except (OSError, subprocess.SubprocessError):
+            left_out = f"not compared: accessibility; npm does not deliver axe-core {AXE}"
+            raise unittest.SkipTest(left_out) from None
+    hashed = base64.b64encode(hashlib.sha512(archive.read_bytes()).digest()).decode()
+    if hashed != AXE_SHA512:
+        archive.unlink()
+        raise AssertionError(f"axe-core {AXE} has the hash {hashed}, expected {AXE_SHA512}")
+    with tarfile.open(archive) as files:
+        return files.extractfile("package/axe.min.js").read().decode()
+
+
+class Accessible(Book):
+    def setUp(self):
+        self.browser.set_script_timeout(300)
+
+    def test_axe_finds_nothing(self):
+        source = axe_core()
+        # one function makes the pages of the library, so one of them stands for all
+        pages = [page for page in PAGES if not page.startswith("library_")] + ["library_core"]
+        for page in pages:
+            for width in (1280, 375) if page in ("index", "playground") else (1280,):
+                with self.subTest(page=page, width=width):
+                    self.show(page, width=width)
+                    self.run_script(source)
+                    self.assertEqual(self.browser.execute_async_script(RUN_AXE), [])
+
+    def test_axe_names_an_image_without_a_text(self):
+        self.show("index")
+        self.run_script(axe_core())
+        self.run_script("document.querySelector('article').append(new Image())")
+        self.assertRegex(self.browser.execute_async_script(RUN_AXE)[0], "^image-alt: 1 times")
+
+    def test_the_keyboard_skips_the_contents_and_sees_where_it_is(self):
+        self.show("08_crouzeix_raviart")
+        self.browser.find_element("css selector", "body").send_keys(Keys.TAB)
+        at = """
+          const at = document.activeElement, style = getComputedStyle(at);
+          const { left, right, top, bottom } = at.getBoundingClientRect();
+          return { text: at.textContent, inside: Boolean(at.closest("article")),
+            seen: left >= 0 && right <= innerWidth && top >= 0 && bottom <= innerHeight,
+            ring: parseFloat(style.outlineWidth) > 0 && style.outlineStyle !== "none" };"""
+        skip = self.run_script(at)
+        self.assertTrue(skip["text"].startswith("Skip to") and skip["seen"], skip)
+        self.browser.switch_to.active_element.send_keys(Keys.ENTER)
+        for _ in range(12):
+            self.browser.switch_to.active_element.send_keys(Keys.TAB)
+            found = self.run_script(at)
+            self.assertTrue(found["ring"] and found["seen"] and found["inside"], found)
+
+
 class Search(Book):
     def test_answers_from_a_folder(self):
         for words, at_least, first in (("kernel", 3, "07_kernel.html"), ("Crouzeix", 3, "08_crouzeix_raviart.html"), ("complementarity", 1, ""),
@@ -668,6 +747,25 @@ class LiveFigure(Book):
         self.wait("return Number(document.querySelector('#live-roundoff').dataset.p1) > 0.02")
         self.assertLess(float(self.run_script(data, "roundoff")["cr"]), 0.005)
         self.assertEqual(self.said(), [])
+
+    def test_the_numbers_of_a_figure_stand_below_it(self):
+        table = """const rows = document.querySelectorAll(`#live-${arguments[0]} .live-numbers tr`);
+          return [...rows].map((row) => [...row.children].map((cell) => cell.textContent));"""
+        for kind, head in (("bound", "ε"), ("string", "step")):
+            with self.subTest(kind=kind):
+                self.show(chapter(kind))
+                box = self.browser.find_element("id", f"live-{kind}")
+                self.run_script("arguments[0].scrollIntoView()", box)
+                self.wait("return arguments[0].dataset.state === 'ready'", box, seconds=60)
+                self.assertEqual(self.run_script(table, kind), [])  # it is folded
+                self.run_script("arguments[0].querySelector('.live-numbers summary').click()", box)
+                self.wait(table.replace("return [...rows]", "return rows.length > 1 && [...rows]"), kind)
+                rows = self.run_script(table, kind)
+                self.assertIn(head, " ".join(rows[0]) + " ".join(sum(rows, [])))
+                if kind == "bound":  # one row, for epsilon = 1
+                    drawn = [float(value) for value in box.get_attribute("data-values").split()]
+                    for shown, value in zip(rows[1][1:], drawn, strict=True):
+                        self.assertAlmostEqual(float(shown) / value, 1, delta=5e-4)  # four digits
 
     # What a chapter's functions answer in a figure is what its text says that they answer.
     def test_figures_of_chapters_say_what_their_chapters_say(self):

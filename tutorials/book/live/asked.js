@@ -56,6 +56,7 @@ antilock.asked = (box, { title, stem, controls, keys = {}, make }) => {
       const answer = await antilock.answer(stem, options);
       draw(answer, options);
       said.textContent = answer.said;
+      numbers(answer.tables);
       box.dataset.state = "ready";
     } catch (error) {
       said.textContent = antilock.refusal(error);
@@ -67,5 +68,6 @@ antilock.asked = (box, { title, stem, controls, keys = {}, make }) => {
   for (const input of inputs) input.addEventListener("input", ask);
   box.setAttribute("aria-label", `Live figure: ${title}`);
   box.replaceChildren(...still.children);
+  const numbers = antilock.numbers(box);
   antilock.whenNear(box, ask);
 };

@@ -49,3 +49,40 @@ antilock.chart = (where, { x, y, title }) => {
     said(text) { svg.setAttribute("aria-label", `${title}. ${text}`); },
   };
 };
+
+/// The numbers of a figure as tables, folded below it, for a reader who does not see its curves. The
+/// answer takes `tables`: name -> rows, as objects. At most 200 rows of a table are shown.
+antilock.numbers = (box) => {
+  const folded = document.createElement("details");
+  folded.className = "live-numbers";
+  folded.innerHTML = `<summary>The numbers of this figure</summary>
+    <div tabindex="0" role="group" aria-label="The numbers of this figure"></div>`;
+  box.append(folded);
+  let tables = {};
+  const line = (cells, kind) => {
+    const row = document.createElement("tr");
+    for (const value of cells) {
+      const text = typeof value === "number" ? Number(value.toPrecision(4)) : value;
+      row.append(Object.assign(document.createElement(kind), { textContent: text }));
+    }
+    return row;
+  };
+  const table = ([name, rows]) => {
+    const part = document.createElement("table"), shown = rows.slice(0, 200);
+    const more = rows.length > shown.length ? `, the first ${shown.length} of ${rows.length} rows` : "";
+    part.createCaption().textContent = name + more;
+    part.createTHead().append(line(Object.keys(rows[0]), "th"));
+    part.createTBody().append(...shown.map((row) => line(Object.values(row), "td")));
+    return part;
+  };
+  const show = () => {
+    if (!folded.open) return;
+    const filled = Object.entries(tables).filter(([, rows]) => rows.length > 0);
+    folded.lastElementChild.replaceChildren(...filled.map(table));
+  };
+  folded.addEventListener("toggle", show);
+  return (now) => {
+    tables = now;
+    show();
+  };
+};

@@ -29,7 +29,7 @@ antilock.figures.locking = async (box) => {
     <div class="live-bar" role="img" aria-label="Colours of u, from minus ${range} to ${range}"><span>u = −${range}</span>
       <i style="background:linear-gradient(to right,${colours})"></i><span>${range}</span>
       <span class="live-key">exact u on Γ<sub>C</sub></span></div>
-    <table class="live-table"><thead><tr><th></th><th>unknowns</th><th>error</th><th>corrections</th><th>in contact</th><th>from x</th><th>ms</th></tr></thead>
+    <table class="live-table"><thead><tr><td></td><th>unknowns</th><th>error</th><th>corrections</th><th>in contact</th><th>from x</th><th>ms</th></tr></thead>
     <tbody>${names.map((name) => `<tr><th scope="row">${name}</th>${"<td></td>".repeat(6)}</tr>`).join("")}</tbody></table>
     <p class="live-warning" role="status"></p>
     <p class="live-note">Both solved in <span id="live-ms"></span> ms. Error: the largest at the unknowns. Drag a picture to turn it, or use its arrow keys.

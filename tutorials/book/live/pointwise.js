@@ -38,6 +38,10 @@ antilock.pointwise = async (box, figure) => {
     figure.keys.forEach((_, i) => chart.curve(classes[i], curve(key, i).filter(([, value]) => !refused(value)), { markers: true }));
     if (figure.refused) chart.curve("touching", curve(key, 0).filter(([, value]) => refused(value)), { joined: false, markers: true });
     box.dataset.points = points[key]?.size ?? 0;
+    const rows = [...(points[key] ?? [])].sort((a, b) => b[0] - a[0]);
+    const cell = (name, i, values) => [name.replace(/<[^>]*>/g, ""), refused(values[i]) ? "refused" : values[i]];
+    numbers({ [figure.label]: rows.map(([epsilon, values]) =>
+      Object.fromEntries([["ε", epsilon], ...figure.keys.map((name, i) => cell(name, i, values))])) });
   }
   async function update() {
     const epsilon = antilock.epsilonOf(range, Boolean(figure.zero));
@@ -70,6 +74,7 @@ antilock.pointwise = async (box, figure) => {
   clear.addEventListener("click", () => { points = {}; draw(); said.textContent = ""; });
   box.setAttribute("aria-label", `Live figure: ${figure.label}`);
   box.replaceChildren(...still.children);
+  const numbers = antilock.numbers(box);
   if (figure.asleep) antilock.whenNear(box, soon);
   else await update();
 };
