@@ -31,6 +31,7 @@ except ImportError:
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tutorials/book"))
 import pdf as whole_book  # noqa: E402
+import slides  # noqa: E402
 from course import read as read_course  # noqa: E402
 
 BOOK, NUMBERS = Path(sys.argv[1]).resolve(), sys.argv[2]
@@ -582,6 +583,61 @@ class Accessible(Book):
             self.browser.switch_to.active_element.send_keys(Keys.TAB)
             found = self.run_script(at)
             self.assertTrue(found["ring"] and found["seen"] and found["inside"], found)
+
+
+# The parts of a slide that stand outside of it, or over its picture, and pictures that are too small
+# to be read.
+CROWDED = """
+  const box = (part) => part.getBoundingClientRect();
+  const outside = (a, b) =>
+    a.left < b.left || a.right > b.right || a.top < b.top || a.bottom > b.bottom;
+  const overlap = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 &&
+    Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
+  return [...document.querySelectorAll(".slide")].flatMap((slide) => {
+    const picture = slide.querySelector("img"), wrong = [];
+    for (const part of slide.querySelectorAll("h1, h2, p, li, .katex-html > *, img")) {
+      const text = part.textContent.slice(0, 40);
+      if (outside(box(part), box(slide))) wrong.push(`outside: ${text}`);
+      if (!picture || part === picture) continue;
+      if (overlap(box(part), box(picture))) wrong.push(`over the picture: ${text}`);
+    }
+    if (picture && box(picture).height < 0.4 * box(slide).height) wrong.push("a small picture");
+    return wrong.map((what) => `${slide.id}, ${what}`);
+  });"""
+
+
+class Slides(Book):
+    def test_no_slide_overflows_and_each_has_its_picture(self):
+        for name in slides.NAMES:
+            source = (ROOT / f"tutorials/guides/{name}.md").read_text()
+            with self.subTest(name=name):
+                self.show(name)
+                number, pictures = self.run_script("""
+                  const images = [...document.querySelectorAll(".slide img")];
+                  return [document.querySelectorAll(".slide").length,
+                    images.map((image) => image.getAttribute("src"))];""")
+                self.assertEqual(number, 1 + source.count("\n## "))
+                names = re.findall(r"(?m)^:figure: (\w+)$", source)
+                self.assertEqual(pictures, [f"_images/{picture}.webp" for picture in names])
+                self.assertGreater(len(names), 4)
+                for width in (800, 1280, 1600):
+                    self.turn(width)
+                    self.assertEqual(self.run_script(CROWDED), [], width)
+
+    def test_a_key_shows_the_next_slide(self):
+        self.show(slides.NAMES[0])
+        shown = """const slide = document.querySelectorAll(".slide")[arguments[0]];
+          return Math.abs(slide.getBoundingClientRect().top) < 2;"""
+        body = self.browser.find_element("css selector", "body")
+        for key, slide in ((Keys.ARROW_RIGHT, 1), (Keys.ARROW_RIGHT, 2), (Keys.ARROW_LEFT, 1)):
+            body.send_keys(key)
+            self.wait(shown, slide, seconds=5)
+
+    def test_each_slide_is_a_page_of_paper(self):
+        self.show(slides.NAMES[0])
+        number = self.run_script("return document.querySelectorAll('.slide').length")
+        pages = re.findall(rb"/Type ?/Page\b(?!s)", whole_book.printed(self.browser))
+        self.assertEqual(len(pages), number)
 
 
 class Search(Book):

@@ -428,6 +428,8 @@ int behind;""".splitlines()
                 ("a page holds one figure of a kind", chapter, "// :live: string"),
                 ("tutorials/00_start: `ε ≥ 0`: a formula stands between dollars", chapter, "// For `ε ≥ 0`."),
                 (":figure: tree: no picture of figures/table.toml", chapter, "// :figure: tree"),
+                ("lecture_1.md: :figure: tree: no picture", "tutorials/guides/lecture_1.md",
+                 "\n:figure: tree"),
                 ("27_later.cpp: :figure: ties: it stands on the page already", "tutorials/27_later/27_later.cpp", "// :figure: ties"),
                 ("27_later.cpp: no line places the picture more", "figures/table.toml",
                  entry("more", "27_later", "Another.")),

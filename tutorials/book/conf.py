@@ -13,7 +13,7 @@ from library import Library, NameLinks  # noqa: E402
 project = "Antilock"
 author = "the Antilock authors"
 html_title = "Antilock"
-extensions = ["myst_parser", "katex", "search", "hints"]
+extensions = ["myst_parser", "katex", "search", "hints", "slides"]
 root_doc = "index"
 # {width=...} behind a picture: attrs_inline since 0.19
 attributes = "attrs_inline" if [int(n) for n in myst_parser.__version__.split(".")[:2]] >= [0, 19] else "attrs_image"
@@ -21,7 +21,8 @@ myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", attributes]
 myst_heading_anchors = 3
 suppress_warnings = ["myst.header"]  # a step (###) stands where the program has it
 html_theme = "furo"
-html_static_path = ["style.css", "book.js", "../../build/book-parts/static"]
+html_static_path = ["style.css", "book.js", "slides.css", "slides.js",
+                    "../../build/book-parts/static"]
 html_css_files = ["katex.css", "style.css"]
 # before live.js, which changes the page
 html_js_files = [("book.js", {"defer": "defer", "priority": 400})]

@@ -11,10 +11,12 @@ import subprocess
 import sys
 import zipfile
 from collections import defaultdict
+from functools import partial
 from pathlib import Path
 
 from PIL import Image
 
+import slides
 from course import read as read_course
 from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, fence, folded, live_figure, runs_in_the_page, signs,
                       with_exercises, with_predictions, without_answer)
@@ -29,7 +31,7 @@ sys.path.append(str(ROOT / "figures"))
 from table import TableError, read as read_table  # noqa: E402
 
 EXTRA = ["howto_scene", "howto_matrices", "howto_python", "dataset", "uniform_rate", "order_two", "locking_loss", "verification", "errata", "glossary", "notation", "bibliography"]
-TEACHING = ["teaching", "lab", "problem_sheets", "answer_book", "exam"]
+TEACHING = ["teaching", "lab", *slides.NAMES, "problem_sheets", "answer_book", "exam"]
 WIDTH, HEIGHT = 900, 760  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
 
 
@@ -275,6 +277,18 @@ class Book:
                 for path in sorted(ROOT.glob(pattern)):
                     kept.writestr(zipfile.ZipInfo(str(path.relative_to(ROOT))), path.read_bytes(), zipfile.ZIP_DEFLATED)
 
+    def shown(self, lecture, name):
+        """The picture of a slide: its path, its caption, its width over its height."""
+        row = next((row for row in self.table if row["image"] == name), None)
+        if row is None:
+            self.complain(f"{lecture}.md: :figure: {name}: no picture of figures/table.toml")
+            return None
+        path = self.picture(name)
+        if path is None:
+            return None
+        with Image.open(ROOT / f"figures/images/{name}.png") as image:
+            return path, row["caption"], image.width / image.height
+
     def notebook(self, page):
         """The notebook of the how-to for Python, and the lines that link to it."""
         (self.out / "howto_python.ipynb").write_text(notebook_of(page))
@@ -344,6 +358,8 @@ class Book:
             lines = page.splitlines()
             if name == "glossary":
                 lines = list(map(self.glossary_line, lines))
+            if name in slides.NAMES:
+                lines = slides.with_pictures(lines, partial(self.shown, name))
             more = self.notebook(page) if name == "howto_python" else []
             self.write(name, self.linked(lines, ROOT / "tutorials/guides", signs) + more)
         self.sources_to_keep()

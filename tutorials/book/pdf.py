@@ -12,6 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import slides
 from course import read as read_course
 from pages import EXTRA, TEACHING
 
@@ -57,7 +58,8 @@ def fail(what):
 def names():
     """The pages of the book in their order."""
     chapters = [name for part in read_course() for name in part.chapters]
-    return ["index", *chapters, *TEACHING, *EXTRA]
+    guides = [name for name in TEACHING + EXTRA if name not in slides.NAMES]  # slides are printed alone
+    return ["index", *chapters, *guides]
 
 
 def whole(book, pages):

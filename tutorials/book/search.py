@@ -5,6 +5,7 @@ from pathlib import Path
 
 from docutils import nodes
 
+import slides
 from packed import script, zipped
 
 
@@ -31,7 +32,8 @@ def write(app, error):
     if error is not None or app.builder.format != "html":
         return
     entries = []
-    for name in sorted(app.env.found_docs):
+    # the words of the slides are those of the chapters
+    for name in sorted(app.env.found_docs - set(slides.NAMES)):
         tree, page = app.env.get_doctree(name), ""
         for section in tree.findall(nodes.section):
             title = section.next_node(nodes.title).astext()
