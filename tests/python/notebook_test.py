@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-nbformat = pytest.importorskip("nbformat", reason="python3-nbformat is missing; .ci/install python installs it")
-nbclient = pytest.importorskip("nbclient", reason="python3-nbclient is missing; .ci/install python installs it")
-pytest.importorskip("ipykernel", reason="python3-ipykernel is missing; .ci/install python installs it")
+nbformat = pytest.importorskip("nbformat", reason="Debian: python3-nbformat (.ci/install python)")
+nbclient = pytest.importorskip("nbclient", reason="Debian: python3-nbclient (.ci/install python)")
+pytest.importorskip("ipykernel", reason="Debian: python3-ipykernel (.ci/install python)")
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tutorials/book"))

@@ -1,8 +1,11 @@
 #!/usr/bin/python3
-"""The how-to for Python as a Jupyter notebook, so that a reader can change its cells. Run: notebook.py > howto_python.ipynb
+"""The how-to for Python as a Jupyter notebook, so that a reader can change its cells.
 
-Prose becomes cells of Markdown, and each block of Python becomes a cell of code. The blocks that show what a program prints
-are left out, because the notebook prints it. Links are left out as well: a notebook is read in any folder.
+Run: notebook.py > howto_python.ipynb
+
+Prose becomes cells of Markdown, and each block of Python becomes a cell of code. The blocks that
+show the output of a program are left out, because the notebook prints it. Links are left out as
+well: a notebook is read in any folder.
 """
 import json
 import re
@@ -34,7 +37,8 @@ def notebook(page):
     """The notebook of a page of Markdown, without outputs."""
     shown = [(kind, text) for kind, text in blocks(page) if kind != "console" and text.strip()]
     cells = [cell("code", number, text) if kind == "python" else
-             cell("markdown", number, LINK.sub(r"\1", text)) for number, (kind, text) in enumerate(shown)]
+             cell("markdown", number, LINK.sub(r"\1", text))
+             for number, (kind, text) in enumerate(shown)]
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
     return {"cells": cells, "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
             "nbformat": 4, "nbformat_minor": 5}
