@@ -104,7 +104,9 @@
 // families of meshes. On rows of congruent triangles without contact it is proved for
 // $h → 0$ (both in [chapter 15](../15_promises/15_promises.cpp)). Without contact the ridge
 // is $\sin a x$ with $a = 2π$, and $E$ has a closed form, $½ (a \coth a + a^2)$ per height
-// 1, the first part from the body. So
+// 1. The second part is the layer's, $∫_0^1 (a \cos a x)^2 dx$ = $½ a^2$. The first one is
+// the body's, in which $u^0 - u_D$ is $\sin a x \sinh a (1 - y) / \sinh a$: it is
+// harmonic, and 0 at the top. So
 //
 // $$ x = \frac{a^4}{a \coth a + a^2} \frac{k^2}{ε^2} = (5.84 \, k/ε)^2. $$
 //

@@ -40,7 +40,11 @@
 // of the layer alone, the method locks in the right half.)
 //
 // Count it by algebra: the columns of $B$ that belong to unknowns of the layer that are not
-// clamped, less their rank.
+// clamped, less their rank. In the table P2 are the continuous functions that are quadratic
+// on each triangle. CR, the element of Crouzeix and Raviart, is affine on each triangle and
+// continuous at the midpoints of the edges only: one unknown per edge
+// ([08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) draws it). $N_T$ is the number of
+// triangles of the layer.
 //
 // | method | dimension on the layer | why |
 // |---|---|---|
@@ -59,11 +63,6 @@
 // formula only the means over its edges that are not vertical count. So this CR function
 // has on $T$ the slope $g_T$. Every choice of slopes is reached, hence the $N_T$ conditions
 // are independent (proved).
-//
-// CR, the element of Crouzeix and Raviart, is affine on each triangle and continuous at the
-// midpoints of the edges only: one unknown per edge
-// ([08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) draws it). $N_T$ is the number of
-// triangles of the layer.
 //
 // What survives on $Γ_C$, when ε → 0, is a function of this kernel. Choose a method, and
 // see how much of $\sin πx$ is left when its values at the unknowns of the layer are

@@ -63,9 +63,11 @@
 // these finitely many the method converges.
 //
 // **Theorem 4.** *If $K_h$ approaches $K$ and $K_{0h}$ approaches $K_0$, the method is
-// robust.* (It needs (H0nc) and (H1nc) as well, which conforming methods have for nothing
-// and Crouzeix–Raviart has: [chapter 14](../14_estimates/14_estimates.cpp). The paper
-// supposes them from its Section 3.1 on.) Suppose that a method with both properties is not
+// robust.* (A method that jumps needs two more properties. (H1nc): the form is coercive in
+// the broken norm, with one constant for all meshes. (H0nc): weak limits of its functions do
+// not jump. A conforming method has both, because its functions are in $V$. Crouzeix–Raviart
+// has them, too: [chapter 14](../14_estimates/14_estimates.cpp) checks it. The paper supposes
+// them from its Section 3.1 on.) Suppose that a method with both properties is not
 // robust. Then there are $h_n → 0$ and $ε_n$ with errors above some $c > 0$. Numbers of
 // $[0, 1]$ have limit points (*Bolzano* and *Weierstrass*), so a part of the $ε_n$ tends to
 // some $\bar ε$. If $\bar ε > 0$, the $ε_n$ keep away from 0 from some $n$ on, and this

@@ -44,10 +44,11 @@
 //
 // ## The way out
 //
-// Nothing is wrong with the problem, which has a limit (24); the large number is the
-// mistake. The paper bounds $a_0(u, u) ≤ C ε_c$ in its class (proof of Theorem 1). Here
-// $ε_c = ε^2$, so $∂_y u → 0$. The large factor $ε^{-2}$ meets the small $∂_y u$. Go one
-// step further than the paper and keep their product, the *layer stress*, as an unknown:
+// Nothing is wrong with the problem, which has a limit (chapter 10; (24) in the paper). The
+// large number is the mistake. The paper bounds $a_0(u, u) ≤ C ε_c$ in its class (proof of
+// Theorem 1). Here $ε_c = ε^2$, so $∂_y u → 0$. The large factor $ε^{-2}$ meets the small
+// $∂_y u$. Go one step further than the paper and keep their product, the *layer stress*, as
+// an unknown:
 //
 // $$ p = ε^{-2} ∂_y u:   A_1 u + B^T M p = L + λ,   ε^2 p - B u = 0. $$
 //
@@ -83,7 +84,8 @@
 // scheme *for every element*, locked or not: its limit is (7), on $K_{0h}$. Whether (7) is
 // near (2), on $K_0$, is another question, that of locking, and the space decides it. (That
 // literature knows: a proof of convergence at all ε asks for an inf-sup condition as well,
-// or for a stabilisation in its place; arXiv:1507.00879.)
+// which [chapter 29](../29_pressure/29_pressure.cpp) explains, or for a stabilisation in its
+// place; arXiv:1507.00879.)
 //
 // Field lines do not follow meshes. So let the stiff lines of the layer have the slope 2.
 // Those that meet a side are held there, those from the right half of $Σ$ reach $Γ_C$ and

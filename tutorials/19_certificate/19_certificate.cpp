@@ -261,7 +261,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // :output: what the width consists of
 //
 // (a) Nowhere: bound / error is 1.28 to 1.47 for CR at every $ε$ that was tried (observed).
-// Two errors must be told apart. That of the companion $v$ is in the identity: of the width
+// Two errors must be told apart. That of the strip's $v$ is in the identity: of the width
 // the displacement has 0.59 to 0.65 for CR, the stress the rest, the works of contact next
 // to nothing. So the bound is $(1/0.65)^{1/2} = 1.24$ to $(1/0.59)^{1/2} = 1.30$ times the
 // error of $v$, whatever $ε$ is. The ratios 1.28 to 1.47 are those of CR's own $u_h$, of

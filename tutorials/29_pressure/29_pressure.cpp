@@ -14,6 +14,11 @@
 // lock then? (b) Without contact the incompressible block is loaded by a gradient,
 // $f = ∇ψ$, with $ψ = 0$ on its free sides. How does it move? And in MINI?
 //
+// **Two parts.** The chapter has two parts, and each can be read alone. The first part asks
+// which pressures a method determines, with contact and without. It answers prediction (a).
+// The second part begins at *A second kind of locking*. It is about loads that are
+// gradients, and needs only the next section. It answers prediction (b).
+//
 // ## The pressure as an unknown
 //
 // For rubber [chapter 28](../28_mixed/28_mixed.cpp)'s strain is
@@ -51,7 +56,7 @@
 // taken over such $v_h$. The table also has it over all $v_h$, and over those that are 0 on
 // the contact set of the solution.
 //
-// The same question can be asked of the layer's stress, $B v = ∂_y v$. Measure $q$ there by
+// **The layer's stress.** The same question can be asked of it, with $B v = ∂_y v$. Measure $q$ there by
 // its largest work on *all* displacements of norm 1, not on the discrete ones alone
 // (the *dual norm*). Then $β = 1$ says: whatever stress some displacement sees, a discrete
 // one sees as well. For CR β is at least 1 on every mesh, because chapter 08's
@@ -79,9 +84,11 @@
 // where $x_e$ is the corner opposite the edge $e$ (Raviart and Thomas). $Π v_h$ has the
 // same flux through each edge as $v_h$ and a continuous normal component. So
 // $\operatorname{div} Π v_h = \operatorname{div} v_h$, it is 0 exactly, and so is
-// $(∇ψ, Π v_h)$. Which gradient is the worst? The load is a sum of waves, and $|u_h|^2$ is
-// a quadratic form in its coefficients, as the error was in chapter 17: the same Lanczos
-// iteration finds it.
+// $(∇ψ, Π v_h)$. Which gradient is the worst? The load is a sum of waves. $u_h$ is linear in
+// its coefficients $c$, so $|u_h|^2$ is $c^T Q c$ with a symmetric matrix $Q$. Among all $c$
+// of length 1 it is largest for the eigenvector of the largest eigenvalue of $Q$. The
+// Lanczos iteration finds it by products with $Q$ alone, that is by solves
+// ([17](../17_families_of_loads/17_families_of_loads.cpp) does the same).
 
 #include <cmath>
 #include <numbers>
