@@ -247,6 +247,10 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
 // $n = 16$. Durán–Liberman leaves three per vertex off the rim, 2163. At $t = 0$ P1 keeps
 // nothing: its error is all of $w$, 1.08. It fails the patch test, by 0.19 and 0.39; the
 // cures pass it to round-off.
+// :number: 3698 = line "Arnold-Falk: dim G_h = {} of"
+// :number: 2163 = line "Duran-Liberman: dim G_h = {} of"
+// :number: 0.19 = line "P1 does not ({})"
+// :number: 1.08 = line "all of w is lost, {} on every"
 // :output: Duran-Liberman:
 // :figure: plate_error
 //
@@ -258,6 +262,11 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
 // edge of contact is near, and CR's value at a midpoint is near the mean of $w$ over that
 // edge, which is not $w$ at the midpoint. The $L^2$ norm does not ask where the unknowns
 // are.
+// :number: 1.92 = line "Duran-Liberman, sup over t: orders in h {},"
+// :number: 1.40 = line "Duran-Liberman: it is at most {} of"
+// :number: 1.59 = line "Arnold-Falk: it is at most {} of"
+// :number: 4419 = line "Duran-Liberman: dim G_h = 2163 of {}"
+// :number: 6770 = line "Arnold-Falk: dim G_h = 3698 of {}"
 //
 // ## Exercises
 //

@@ -347,16 +347,22 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
 // (a) At λ = 1 to the *left*: the left half slips inwards, to the right, and $T$ is
 // $-0.016$. In the limit to the right: it slips outwards, and $T = 0.012$. The two effects
 // cancel between λ = 5 and λ = 10.
+// :number: -0.016 = table "T, by lambda" 1 "element=P1 crossed triangles"
 // :figure: friction_by_lambda
 //
 // (b) Where they cancel. P1 on crossed triangles sticks on 0.16 at λ = 1, 0.41 at 5, 0.28
 // at 10, 0.22 in the limit.
+// :number: 0.16 = table "sticks, by lambda" 1 "element=P1 crossed triangles"
+// :number: 0.41 = table "sticks, by lambda" 5 "element=P1 crossed triangles"
+// :number: 0.28 = table "sticks, by lambda" 10 "element=P1 crossed triangles"
+// :number: 0.22 = table "sticks, by lambda" inf "element=P1 crossed triangles"
 // :live: friction
 // :output: Crouzeix-Raviart with jumps: T
 //
 // The three elements that do not lock have the forces of the reference at every λ, with one
 // factor for all large λ and at most 2 corrections. Friction converges like $h^2$, the
 // normal force less evenly. Locked P1's is 196 % too large.
+// :number: 196 = table "error of the normal force" inf "element=P1 right diagonals"
 // :output: active set and Uzawa
 //
 // The active set takes 2 to 4 steps and Uzawa some thousands. But a step of the active set

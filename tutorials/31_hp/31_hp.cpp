@@ -237,15 +237,23 @@ void judge(const Table& results, const Exact& exact, tutorial::Report& report) {
 // The multiple of $h^{3/2}$ is the same on all four meshes to 3 %. At ε = 1 the smooth part
 // of $u$ hides it in $H^1$. On $Γ_C$ it is there (0.24 to 0.27 times $h^{3/2}$), and at ε =
 // 0 the order on $Γ_C$ is 2, as derived above.
+// :number: 0.24 = line "epsilon = 1, P4, equal cells, on Gamma_C: {} to"
+// :number: 0.27 = line "epsilon = 1, P4, equal cells, on Gamma_C: 0.236 to {} times"
 // :figure: hp_contact
 //
 // Graded, P1 to P4 have the orders 0.93, 1.83, 2.89, 4.3 in $H^1$ at ε = 0. On $Γ_C$ at ε =
 // 1 the term with $s_p$ shows already: the error of graded P4 is 3.2e-5 and 1.1e-5 at 1/h =
 // 8 and 16 (`results.csv`), order 1.5.
+// :number: 0.93 = line "epsilon = 0, graded P1: h^{} in"
+// :number: 1.83 = line "epsilon = 0, graded P2: h^{} in"
+// :number: 2.89 = line "epsilon = 0, graded P3: h^{} in"
+// :number: 4.3 = line "epsilon = 0, graded P4: h^{} in"
 //
 // hp at ε = 0 divides the $H^1$ error by 6.0, 7.3, 9.0 and 10.4 per level from P2 on. This
 // factor still grows from level to level, so six levels show no rate yet. The order in $N$
 // grows from 1.5 to 4.0. It is the same at ε = 1e-20.
+// :number: 6.0 = line "epsilon = 0, hp: from P2 on the H1 error is divided by {},"
+// :number: 4.0 = line "epsilon = 0, hp: no power of N, orders 0.7, 1.5, 2.3, 3.1, {} from"
 //
 // (b) In $H^1$ the degree: with 8 layers from the start each degree has the error of hp to
 // 0.1 % (exercise 3, ε = 1). On $Γ_C$ it is the layers: P6 with 0 to 4 of them has 1.7e-2,
