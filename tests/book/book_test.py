@@ -423,7 +423,7 @@ CUT = """
   const parts = "article :is(.katex-html > *, pre, table, img, canvas, svg)";
   return [...document.querySelectorAll(parts)]
     .filter((part) => outside(part) || scrolls(part))
-    .map((part) => `${part.tagName} ${part.getAttribute("class")}: ${part.textContent.slice(0, 50)}`);"""
+    .map((part) => `${part.tagName} ${part.className}: ${part.textContent.slice(0, 50)}`);"""
 
 
 class Print(Book):
@@ -529,7 +529,7 @@ RUN_AXE = """
 def axe_core():
     """The source of axe-core, which `npm pack` fetches into the build folder.
 
-    Where npm does not deliver it, the test is left out. Where it has another hash, the test fails."""
+    Where npm does not deliver it, the test is left out. Where its hash differs, the test fails."""
     archive = BOOK.parent / f"axe-core-{AXE}.tgz"
     if not archive.exists():
         pack = ["npm", "pack", f"axe-core@{AXE}", "--silent", "--pack-destination", archive.parent]
@@ -585,8 +585,8 @@ class Accessible(Book):
             self.assertTrue(found["ring"] and found["seen"] and found["inside"], found)
 
 
-# The parts of a slide that stand outside of it, or over its picture, and pictures that are too small
-# to be read.
+# The parts of a slide that stand outside of it, or over its picture, and pictures that are too
+# small to be read.
 CROWDED = """
   const box = (part) => part.getBoundingClientRect();
   const outside = (a, b) =>
@@ -815,7 +815,8 @@ class LiveFigure(Book):
                 self.wait("return arguments[0].dataset.state === 'ready'", box, seconds=60)
                 self.assertEqual(self.run_script(table, kind), [])  # it is folded
                 self.run_script("arguments[0].querySelector('.live-numbers summary').click()", box)
-                self.wait(table.replace("return [...rows]", "return rows.length > 1 && [...rows]"), kind)
+                filled = table.replace("return [...rows]", "return rows.length > 1 && [...rows]")
+                self.wait(filled, kind)
                 rows = self.run_script(table, kind)
                 self.assertIn(head, " ".join(rows[0]) + " ".join(sum(rows, [])))
                 if kind == "bound":  # one row, for epsilon = 1

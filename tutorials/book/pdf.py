@@ -3,8 +3,8 @@
 
 Run: tutorials/book/pdf.py [FILE]    FILE is build/book.pdf if none is named
 
-Needs tutorials/book/build and `.ci/install browser`. The chapters stand in the order of course.toml,
-and the guides follow. The pages of the library are left out, and so are links to them.
+Needs tutorials/book/build and `.ci/install browser`. The chapters stand in the order of
+course.toml, and the guides follow. The pages of the library are left out, and so are links to them.
 """
 import base64
 import re
@@ -58,7 +58,8 @@ def fail(what):
 def names():
     """The pages of the book in their order."""
     chapters = [name for part in read_course() for name in part.chapters]
-    guides = [name for name in TEACHING + EXTRA if name not in slides.NAMES]  # slides are printed alone
+    # slides are printed alone
+    guides = [name for name in TEACHING + EXTRA if name not in slides.NAMES]
     return ["index", *chapters, *guides]
 
 

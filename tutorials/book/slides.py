@@ -1,15 +1,15 @@
 """The slides of a lecture: in a page of Markdown each section is a slide.
 
-Sphinx makes the page as it makes every other one, so its formulas are set and its links are checked.
-Then `deck` takes its sections out of the theme. The line `:figure: NAME` stands for the picture of a
-slide, by its name in figures/table.toml.
+Sphinx makes the page as it makes every other one, so its formulas are set and its links are
+checked. Then `deck` takes its sections out of the theme. The line `:figure: NAME` stands for the
+picture of a slide, by its name in figures/table.toml.
 """
 import json
 import re
 from pathlib import Path
 
 NAMES = [f"lecture_{number}" for number in (1, 2, 3, 4)]
-WIDE = 1.9  # a picture whose width over its height is larger stands below the words, not beside them
+WIDE = 1.9  # a picture whose width over its height is larger stands below the words
 PLACE = re.compile(r":figure:\s*(\S+)$")
 SHOWN = re.compile(r'<div class="[^"]*\bshown (wide|tall)\b[^"]*">\s*(<img[^>]*>)\s*</div>')
 SECTION = re.compile(r'<section [^>]*id="([\w-]+)"[^>]*>\s*')
@@ -26,8 +26,8 @@ FOOT = "</article></main></body></html>\n"
 
 
 def with_pictures(lines, picture):
-    """The lines of Markdown with their pictures. `picture(name)` is (path, caption, aspect) or None,
-    where the aspect is the width over the height."""
+    """The lines of Markdown with their pictures. `picture(name)` is (path, caption, aspect) or
+    None, where the aspect is the width over the height."""
     out = []
     for line in lines:
         place = PLACE.match(line)
@@ -56,7 +56,7 @@ def slide(identity, content):
 
 
 def deck(page):
-    """The slides of a page of Sphinx: the title with its introduction, then one slide per section."""
+    """The slides of a page of Sphinx: the title and its introduction, then one per section."""
     article = re.search(r"<article[^>]*>(.*)</article>", page, re.S)[1]
     article = re.sub(r'<a class="headerlink".*?</a>', "", article, flags=re.S)
     foot = re.search(r'<p class="foot">.*?</p>', article, re.S)[0]

@@ -50,8 +50,8 @@ antilock.chart = (where, { x, y, title }) => {
   };
 };
 
-/// The numbers of a figure as tables, folded below it, for a reader who does not see its curves. The
-/// answer takes `tables`: name -> rows, as objects. At most 200 rows of a table are shown.
+/// The numbers of a figure as tables, folded below it, for a reader who does not see its curves.
+/// The answer takes `tables`: name -> rows, as objects. At most 200 rows of a table are shown.
 antilock.numbers = (box) => {
   const folded = document.createElement("details");
   folded.className = "live-numbers";
@@ -69,7 +69,8 @@ antilock.numbers = (box) => {
   };
   const table = ([name, rows]) => {
     const part = document.createElement("table"), shown = rows.slice(0, 200);
-    const more = rows.length > shown.length ? `, the first ${shown.length} of ${rows.length} rows` : "";
+    const less = shown.length < rows.length;
+    const more = less ? `, the first ${shown.length} of ${rows.length} rows` : "";
     part.createCaption().textContent = name + more;
     part.createTHead().append(line(Object.keys(rows[0]), "th"));
     part.createTBody().append(...shown.map((row) => line(Object.values(row), "td")));

@@ -39,9 +39,10 @@ antilock.pointwise = async (box, figure) => {
     if (figure.refused) chart.curve("touching", curve(key, 0).filter(([, value]) => refused(value)), { joined: false, markers: true });
     box.dataset.points = points[key]?.size ?? 0;
     const rows = [...(points[key] ?? [])].sort((a, b) => b[0] - a[0]);
-    const cell = (name, i, values) => [name.replace(/<[^>]*>/g, ""), refused(values[i]) ? "refused" : values[i]];
+    const heads = figure.keys.map((key) => key.replace(/<[^>]*>/g, ""));
+    const cell = (value) => (refused(value) ? "refused" : value);
     numbers({ [figure.label]: rows.map(([epsilon, values]) =>
-      Object.fromEntries([["ε", epsilon], ...figure.keys.map((name, i) => cell(name, i, values))])) });
+      Object.fromEntries([["ε", epsilon], ...heads.map((head, i) => [head, cell(values[i])])])) });
   }
   async function update() {
     const epsilon = antilock.epsilonOf(range, Boolean(figure.zero));
