@@ -21,7 +21,8 @@ antilock.figures.locking = async (box) => {
     </div>
     <div class="live-pictures">${names.map((name, i) => `
       <figure><figcaption><b>${name}</b><br><span class="live-number" id="live-kept-${short[i]}"></span> % of the layer’s displacement kept</figcaption>
-      <div class="live-canvas"><canvas tabindex="0" role="img"></canvas>
+      <div class="live-canvas">
+        <canvas tabindex="0" role="img" aria-label="Surface of u with ${name}"></canvas>
       <span class="live-label" aria-hidden="true">x = 0</span><span class="live-label" aria-hidden="true">x = 1</span>
       <span class="live-label" aria-hidden="true">y = 1</span><span class="live-label" aria-hidden="true">Σ</span>
       <span class="live-label" aria-hidden="true">Γ<sub>C</sub></span><span class="live-label" aria-hidden="true"></span></div></figure>`).join("")}
