@@ -390,6 +390,7 @@ int behind;""".splitlines()
         for text, shown in (("u_h^epsilon -> u^0", "u<sub>h</sub><sup>ε</sup> → u<sup>0</sup>"),
                             ("a_x^-(u_h^+, v)", "a<sub>x</sub><sup>−</sup>(u<sub>h</sub><sup>+</sup>, v)"),
                             (r"\|.\|_{1,Omega_h}", r"\|.\|<sub>1,Ω<sub>h</sub></sub>"),
+                            ("theta, zeta and chi_h", "θ, zeta and χ<sub>h</sub>"),
                             ("h << epsilon^(8/3)", "h ≪ ε<sup>8/3</sup>"), ("h^1.12, K_0h", "h<sup>1.12</sup>, K<sub>0h</sub>"),
                             ("(t h / epsilon)^2.", "(t h / ε)<sup>2</sup>."), ("10^-2.5 >= 1/epsilon", "10<sup>−2.5</sup> ≥ 1/ε"),
                             ("06_p1_unstructured (13_uniform)", "06_p1_unstructured (13_uniform)")):

@@ -268,7 +268,8 @@ def answers_on_paper(path):
     return []
 
 
-GREEK = dict(zip("alpha beta gamma delta epsilon eta kappa lambda mu pi rho sigma Gamma Omega Sigma".split(), "αβγδεηκλμπρσΓΩΣ"))
+GREEK = dict(zip("alpha beta gamma delta epsilon eta theta kappa lambda mu pi rho sigma chi Gamma Omega Sigma".split(),
+                 "αβγδεηθκλμπρσχΓΩΣ"))
 SCRIPT = r"(?:\{[^}]*\}|-?\d+(?:\.\d+)?(?!\w)|\([\d/]+\)|-?[A-Za-z0-9]+|[-+](?!\w))"
 SCRIPTS = re.compile(rf"((?<![\w\\])(?:[A-Za-z]|{'|'.join(GREEK)})|\||\)|(?<!\w)\d+(?=\^))((?:[_^]{SCRIPT})+)")
 RELATIONS = {"->": "→", ">=": "≥", "<=": "≤", "<<": "≪"}
