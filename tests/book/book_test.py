@@ -391,7 +391,8 @@ class Predictions(Book):
     def test_a_browser_that_keeps_nothing_shows_the_answer_all_the_same(self):
         refuse = """Object.defineProperty(window, 'localStorage',
           { get() { throw new DOMException('no'); } });"""
-        begin, end = "Page.addScriptToEvaluateOnNewDocument", "Page.removeScriptToEvaluateOnNewDocument"
+        begin = "Page.addScriptToEvaluateOnNewDocument"
+        end = "Page.removeScriptToEvaluateOnNewDocument"
         script = self.browser.execute_cdp_cmd(begin, {"source": refuse})["identifier"]
         try:
             self.browser.get(f"{(BOOK / self.page).as_uri()}.html")

@@ -3,7 +3,8 @@
 - A comment at the margin is prose (Markdown, formulas between dollars); everything else is code.
 - An indented comment belongs to the code, unless it begins with a heading (`### Solve`): then it is prose too.
 - `### Solve` in the C++ finds `// ### Solve` in the FreeFEM twin, which is folded under it.
-- The lines that judge a run are folded: the functions `judge`, and other functions from their first claim on.
+- The lines that judge a run are folded: the functions `judge`, and other functions from their
+  first claim on.
 - `Run: COMMAND    what it does` lines become a table with buttons; includes are folded away.
 - `:live: string` places a live figure, `:live: mesh=layered cells=32` the one of P1 and Crouzeix-Raviart with its settings.
 - `:figure: NAME ...` places pictures of figures/table.toml, `:output:` what the program printed: pages.py puts them in.
@@ -69,7 +70,8 @@ CLAIM = re.compile(r"\breport\.claim\w*\(")
 
 
 def function_end(block, start):
-    """The index behind the function that is open or begins at `start`: its brace at the margin, or the end of the code."""
+    """The index behind the function that is open or begins at `start`: that of its brace at the
+    margin, or the end of the code."""
     return next((i + 1 for i in range(start, len(block)) if block[i] == "}"), len(block))
 
 
@@ -82,7 +84,8 @@ def judges(block, start):
 
 
 def first_of_claim(block, at):
-    """The line at which the statement of a claim begins, with the comment above it; None inside a longer statement."""
+    """The line at which the statement of a claim begins, with the comment above it; None inside a
+    longer statement."""
     start = at
     while start > 0 and block[start].startswith("   "):
         start -= 1
@@ -94,7 +97,7 @@ def first_of_claim(block, at):
 
 
 def verdicts(block):
-    """The ranges of lines that judge a run: functions `judge`, and others from their first claim on."""
+    """The ranges of lines that judge a run: functions `judge`, and others from their first claim."""
     at = 0
     while at < len(block):
         start = at if judges(block, at) else None
@@ -113,7 +116,8 @@ def code(block):
     for start, end in verdicts(block):
         if any(line.strip() for line in block[at:start]):
             out += fence("cpp", block[at:start])
-        out += folded(f"The verdict: {end - start} lines", fence("cpp", block[start:end]), "verdict")
+        summary = f"The verdict: {end - start} lines"
+        out += folded(summary, fence("cpp", block[start:end]), "verdict")
         at = end
     return out + (fence("cpp", block[at:]) if any(line.strip() for line in block[at:]) else [])
 
@@ -268,8 +272,8 @@ def answers_on_paper(path):
     return []
 
 
-GREEK = dict(zip("alpha beta gamma delta epsilon eta theta kappa lambda mu pi rho sigma chi Gamma Omega Sigma".split(),
-                 "αβγδεηθκλμπρσχΓΩΣ"))
+GREEK = dict(zip("alpha beta gamma delta epsilon eta theta kappa lambda mu pi rho sigma chi "
+                 "Gamma Omega Sigma".split(), "αβγδεηθκλμπρσχΓΩΣ"))
 SCRIPT = r"(?:\{[^}]*\}|-?\d+(?:\.\d+)?(?!\w)|\([\d/]+\)|-?[A-Za-z0-9]+|[-+](?!\w))"
 SCRIPTS = re.compile(rf"((?<![\w\\])(?:[A-Za-z]|{'|'.join(GREEK)})|\||\)|(?<!\w)\d+(?=\^))((?:[_^]{SCRIPT})+)")
 RELATIONS = {"->": "→", ">=": "≥", "<=": "≤", "<<": "≪"}
