@@ -56,8 +56,11 @@ bool ContactSet::at(double where) const {
   return active[left] != 0 && active[right] != 0;
 }
 
-NestedLevel::NestedLevel(const Scene& scene, TriangleMesh subdomain, const Element& element)
-    : space(std::move(subdomain), element), problem(scene, space), state(zero_state(problem)) {}
+NestedLevel::NestedLevel(const Scene& scene, TriangleMesh subdomain, const Element& element,
+                         PenaltyChoice penalty)
+    : space(std::move(subdomain), element),
+      problem(scene, space, penalty),
+      state(zero_state(problem)) {}
 
 ContactSet NestedLevel::contact_set() const {
   std::vector<double> mine;  // x, whether active
@@ -117,6 +120,9 @@ std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh
         options.partition ? options.partition(coarse, ranks()) : strip_partition(coarse, ranks());
     subdomain = subdomain_of(coarse, rank_of, rank());
   });
+  const PenaltyChoice penalty = preconditioner == Preconditioner::strips
+                                    ? PenaltyChoice::mesh_width
+                                    : PenaltyChoice::distributed_default;
   watch.lap();
   const int first = std::max(0, std::min(options.first_level, options.refinements));
   for (int l = 0; l < first; ++l) collectively([&] { subdomain = refined_subdomain(subdomain); });
@@ -127,7 +133,8 @@ std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh
     options.stage(fmt::format("level {} of {}: {} triangles", l, options.refinements,
                               sum(static_cast<long long>(subdomain.triangle_count()))));
     watch.lap();
-    auto finer = std::make_unique<NestedLevel>(scene, std::exchange(subdomain, {}), element);
+    auto finer =
+        std::make_unique<NestedLevel>(scene, std::exchange(subdomain, {}), element, penalty);
     if (level) {
       finer->start_from(*level);
       finer->start_from(level->contact_set());

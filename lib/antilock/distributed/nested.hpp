@@ -21,7 +21,8 @@ struct ContactSet {
 
 /// One mesh of the hierarchy with the data of this rank on it.
 struct NestedLevel {
-  NestedLevel(const Scene& scene, TriangleMesh subdomain, const Element& element);
+  NestedLevel(const Scene& scene, TriangleMesh subdomain, const Element& element,
+              PenaltyChoice penalty);
   Space space;  ///< on the subdomain of this rank
   DistributedProblem problem;
   State state;

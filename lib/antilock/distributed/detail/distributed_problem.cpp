@@ -24,6 +24,35 @@ double penalty_over_all(StiffnessRatio s) {
   return choose_penalty(s);
 }
 
+/// The square of the shortest edge of a triangle.
+double shortest_edge_squared(const TriangleMesh& mesh, int triangle) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const int e : mesh.triangle_edges.row(triangle)) {
+    const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0));
+    const Eigen::RowVector2d b = mesh.vertices.row(mesh.edges(e, 1));
+    shortest = std::min(shortest, (b - a).squaredNorm());
+  }
+  return shortest;
+}
+
+/// PenaltyChoice::mesh_width without its lower bound. The same on every rank.
+double penalty_of_mesh_width(const TriangleMesh& mesh) {
+  double squares = 0;
+  double depth = 0;
+  long long triangles = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] != Region::layer) continue;
+    ++triangles;
+    squares += shortest_edge_squared(mesh, t);
+    for (const int v : mesh.triangles.row(t)) depth = std::max(depth, -mesh.vertices(v, 1));
+  }
+  squares = sum(squares);
+  triangles = sum(triangles);
+  depth = largest(depth);
+  if (triangles == 0 || depth <= 0) return 0;
+  return squares / static_cast<double>(triangles) / (256 * depth * depth);
+}
+
 }  // namespace
 
 DistributedProblem::DistributedProblem(const Scene& scene, const Space& space,
@@ -50,9 +79,10 @@ DistributedProblem::DistributedProblem(const Scene& scene, const Space& space,
   const bool stiff =
       sum(static_cast<long long>(part_.m.size())) > 0;  // whether any rank has a row of B
   if (stiff) part_.compliance = largest(part_.m.size() > 0 ? part_.compliance : 0);
-  const double rule =
-      penalty_over_all(stiffness_ratio(part_)) /
-      (penalty == PenaltyChoice::distributed_default ? defaults::penalty_reduction : 1);
+  double rule = penalty_over_all(stiffness_ratio(part_));
+  if (penalty != PenaltyChoice::serial_default) rule /= defaults::penalty_reduction;
+  if (penalty == PenaltyChoice::mesh_width)
+    rule = std::max(rule, penalty_of_mesh_width(space.mesh()));
   if (stiff)
     delta_ = penalty == PenaltyChoice::none ? part_.compliance : std::max(part_.compliance, rule);
   // B' M B is the layer's y-derivatives: the same form with weight delta^-1 on the layer is A1 +
