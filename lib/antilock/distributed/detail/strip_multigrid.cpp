@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <new>
 
+#include "antilock/core/error.hpp"
 #include "antilock/distributed/ranks.hpp"
 
 namespace antilock::distributed {
@@ -98,8 +100,7 @@ std::vector<PC> preconditioners_of_sets(PC schwarz) {
 
 StripMultigrid::StripMultigrid(const DistributedProblem& problem)
     : strips_(problem),
-      coarse_(problem.space(), problem.rows(),
-              rows_of_coarse_functions(problem, strips_.units())),
+      coarse_(problem.space(), problem.rows(), rows_of_coarse_functions(problem, strips_.units())),
       split_(problem) {}
 
 void StripMultigrid::set_up(KSP solver, Mat summed, const std::vector<PetscInt>& held) {
@@ -115,7 +116,7 @@ void StripMultigrid::set_up(KSP solver, Mat summed, const std::vector<PetscInt>&
     keep_untouched_factors(held);
     ok(PCSetUp(schwarz_));
   }
-  ok(PCSetUpOnBlocks(schwarz_));
+  factor_strips();
   ok(KSPSetUp(solver));
   last_held_ = held;
 }
@@ -190,6 +191,22 @@ void StripMultigrid::configure_strips() {
   }
   ok(PCSetType(of_sets.back(), PCSOR));
   ok(PCSORSetSymmetric(of_sets.back(), SOR_LOCAL_SYMMETRIC_SWEEP));
+}
+
+/// Each rank factors its own strips, and learns of the failure of another one.
+void StripMultigrid::factor_strips() {
+  const PetscErrorCode code = PCSetUpOnBlocks(schwarz_);
+  PCFailedReason reason = PC_NOERROR;
+  ok(PCGetFailedReason(schwarz_, &reason));
+  collectively([&] {
+    if (code == PETSC_ERR_MEM) throw std::bad_alloc();
+    if (code != 0 || reason != PC_NOERROR)
+      throw NotConverged(
+          "petsc: the matrix of a strip of the layer has no Cholesky factor, because in double "
+          "precision it is singular; accepted: stiffnesses of layer and body that differ by less, "
+          "or --direct (MUMPS)",
+          1, 0);
+  });
 }
 
 /// A strip without a row that entered or left the contact set has the same matrix as before.

@@ -37,7 +37,8 @@ class StripMultigrid {
 
   /// Prepares `solver` for the contact set `held`, the rows of this rank, ascending. `summed` is
   /// A_delta whose rows and columns of the set are those of a diagonal matrix. Solver and `summed`
-  /// must be the same objects in every call. Every rank must call it.
+  /// must be the same objects in every call. Every rank must call it. Throws NotConverged, on every
+  /// rank, where the matrix of a strip is singular.
   void set_up(KSP solver, Mat summed, const std::vector<PetscInt>& held);
 
  private:
@@ -45,6 +46,7 @@ class StripMultigrid {
   void configure(KSP solver, Mat summed);
   void renew_operators(KSP solver, Mat summed);
   void configure_strips();
+  void factor_strips();
   void keep_untouched_factors(const std::vector<PetscInt>& held);
 
   LayerStrips strips_;
