@@ -88,8 +88,7 @@ TEST(CoarseSpace, RefusesALayerBesideSigma) {
   mesh = subdomain_of(mesh, is_cut_off, 0);
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const bool on_boundary = mesh.edge_triangles(e, 1) < 0;
-    const bool is_cut =
-        mesh.edge_tag[e] == EdgeTag::sigma || mesh.edge_tag[e] == EdgeTag::interior;
+    const bool is_cut = mesh.edge_tag[e] == EdgeTag::sigma || mesh.edge_tag[e] == EdgeTag::interior;
     if (on_boundary && is_cut) mesh.edge_tag[e] = EdgeTag::clamped;
   }
   const DistributedProblem problem(paper_problem(), Space(own_subdomain(mesh), crouzeix_raviart()));

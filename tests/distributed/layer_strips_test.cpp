@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -69,16 +70,36 @@ TEST(LayerStrips, MeetInATriangleAtMostWithTheirNeighbours) {
   EXPECT_LE(most, ranks() == 1 ? 3 : 5);
 }
 
+/// What the refusal of the strips says; empty where they are accepted.
+std::string refusal_of(const DistributedProblem& problem, long long most_unknowns) {
+  try {
+    const LayerStrips strips(problem, most_unknowns);
+  } catch (const NotConverged& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool says(const std::string& message, const std::string& words) {
+  return message.find(words) != std::string::npos;
+}
+
 TEST(LayerStrips, AreRefusedWhereOneIsTooLarge) {
   const DistributedProblem problem = problem_on(unstructured_mesh(16), 0);
-  EXPECT_NO_THROW(LayerStrips{problem});
-  bool is_refused = false;
-  try {
-    const LayerStrips strips(problem, 100);
-  } catch (const NotConverged& error) {
-    is_refused = std::string(error.what()).find("a strip of the layer has") != std::string::npos;
-  }
-  EXPECT_EQ(sum(static_cast<long long>(is_refused)), ranks());
+  EXPECT_EQ(refusal_of(problem, LayerStrips::factored_unknowns), "");
+  const std::string message = refusal_of(problem, 100);
+  EXPECT_TRUE(says(message, "a strip of the layer has")) << message;
+  EXPECT_TRUE(says(message, "its cells are small")) << message;
+  EXPECT_TRUE(says(message, "accepted: ")) << message;
+}
+
+TEST(LayerStrips, AreRefusedWhereTheLayerIsOneStripWide) {
+  // three edges long, a layer is not cut on one rank, and cut on each border of two ranks
+  const DistributedProblem problem = problem_on(unstructured_mesh(std::max(3, ranks())), 0);
+  EXPECT_EQ(refusal_of(problem, LayerStrips::factored_unknowns), "");
+  const std::string message = refusal_of(problem, 1);
+  EXPECT_EQ(says(message, "the layer is one strip wide"), ranks() == 1) << message;
+  EXPECT_EQ(says(message, "its cells are small"), ranks() > 1) << message;
 }
 
 }  // namespace

@@ -189,12 +189,21 @@ TEST(Refusals, AreTheSameOnEveryRank) {
   const UnilateralContact bad_gap{[](double x) { return x > 0.7 && x < 0.9 ? NAN : 1; }};
   expect_refused<Error>(Scene({paper_load}, StiffLayer{1e-2}, bad_gap), structured_mesh(16), p1(),
                         {});
+  expect_refused<Error>(Scene({infinite_at_the_right}, StiffLayer{1e-2}), unstructured_mesh(8),
+                        crouzeix_raviart(), {});
   NestedOptions hasty;
   hasty.loop.max_corrections = 1;
   expect_refused<NotConverged>(scene(), structured_mesh(16), p1(), hasty);
   NestedOptions few;
   few.loop.max_iterations = 1;
   expect_refused<NotConverged>(scene(), structured_mesh(16), p1(), few);
+  expect_refused<NotConverged>(scene(), unstructured_mesh(16), crouzeix_raviart(), few);
+  NestedOptions stopped;
+  stopped.loop.progress = [](const Progress& progress) {
+    const bool is_last_rank = rank() == ranks() - 1;
+    return !is_last_rank || progress.step < 2;
+  };
+  expect_refused<Interrupted>(scene(), unstructured_mesh(16), crouzeix_raviart(), stopped);
 }
 
 TEST(Report, IsTheSerialOneOfTheSameNumbers) {

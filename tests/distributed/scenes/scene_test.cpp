@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/write_msh.hpp"
 #include "scenes/runner.hpp"
@@ -150,6 +151,17 @@ TEST(PetscScene,
     expect_the_files_of_the_serial_run(Runs(text("active-set")), Runs(text("petsc")),
                                        {pieces ? 3 : 2}, 3);
   }
+}
+
+TEST(PetscScene, SolvesALayerWithoutColumnsFromAFile) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "any.msh").string();
+  write_msh(path, jittered_mesh(12, 0.2));
+  const auto text = [&](const std::string& solver) {
+    std::string all = scene_text(solver, "file", "CR", 0, "", 1);
+    return all.replace(all.find("cells = 0"), 9, "file = \"" + path + "\"");
+  };
+  expect_the_files_of_the_serial_run(Runs(text("active-set")), Runs(text("petsc")), {0, 3}, 2);
 }
 
 TEST(PetscScene, IsNoMoreExactThanAsked) {
