@@ -80,8 +80,7 @@ void serial(const Scene& scene, const Element& element, int cells, bool has_colu
   const Solution solution = active_set(problem);
   fmt::print("{},{},1,{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},0,{},0,{},{:.0f},{:.1e},{:.3g}\n",
              has_columns ? "serial" : "serial-any", element.name(), problem.free_count(),
-             mesh_seconds, assemble_seconds,
-             solution.seconds.analyse + solution.seconds.factor,
+             mesh_seconds, assemble_seconds, solution.seconds.analyse + solution.seconds.factor,
              solution.seconds.contact + solution.seconds.solve, cpu_seconds() - before,
              solution.counters.corrections, solution.counters.contact_iterations,
              distributed::peak_megabytes(), solution.kkt.residual,

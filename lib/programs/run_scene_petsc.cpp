@@ -298,8 +298,7 @@ int run(int argc, char** argv) {
   line.add_option("--most-seconds", choices.most_seconds,
                   "stop a solve that takes longer: status 3")
       ->check(CLI::Range(0.0, choices.most_seconds));
-  line.add_flag("--direct", choices.direct,
-                "a factor by MUMPS in place of multigrid");
+  line.add_flag("--direct", choices.direct, "a factor by MUMPS in place of multigrid");
   if (const auto status = tutorial::parse(line, argc, argv, dist::rank() > 0)) return *status;
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {

@@ -73,8 +73,8 @@ std::vector<SigmaEdge> gathered_sigma(const TriangleMesh& mesh, const CoarseNumb
     int a = mesh.edges(e, 0);
     int b = mesh.edges(e, 1);
     if (mesh.vertices(a, 0) > mesh.vertices(b, 0)) std::swap(a, b);
-    mine.insert(mine.end(), {mesh.vertices(a, 0), mesh.vertices(b, 0), numbers.first(a),
-                             numbers.first(b)});
+    mine.insert(mine.end(),
+                {mesh.vertices(a, 0), mesh.vertices(b, 0), numbers.first(a), numbers.first(b)});
   }
   const std::vector<double> all = all_gather(mine);
   std::map<double, SigmaEdge> by_left;  // the same vertex has the same x, to the last bit

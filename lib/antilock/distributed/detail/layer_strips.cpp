@@ -134,8 +134,7 @@ class LengthInUnits {
     if (to < 0 || from > last) return;
     const auto begin = static_cast<std::size_t>(std::max(from, 0.0));
     const auto end = static_cast<std::size_t>(std::min(to, last));
-    for (std::size_t k = begin; k <= end; ++k)
-      longest[k] = std::max(longest[k], std::abs(b - a));
+    for (std::size_t k = begin; k <= end; ++k) longest[k] = std::max(longest[k], std::abs(b - a));
   }
 
   double low_ = 0;

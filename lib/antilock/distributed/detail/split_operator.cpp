@@ -28,8 +28,7 @@ SplitOperator::SplitOperator(const DistributedProblem& problem)
   const auto owned = static_cast<PetscInt>(problem.rows().owned());
   ok(MatCreateShell(PETSC_COMM_WORLD, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, this,
                     &matrix_));
-  ok(MatShellSetOperation(matrix_, MATOP_MULT,
-                          reinterpret_cast<void (*)(void)>(multiply_shell)));
+  ok(MatShellSetOperation(matrix_, MATOP_MULT, reinterpret_cast<void (*)(void)>(multiply_shell)));
 }
 
 void SplitOperator::fix_rows(const std::vector<PetscInt>& held, Mat summed) {
