@@ -49,8 +49,8 @@
 // $$ A_δ\,du = r_1 + δ^{-1} B^T M r_2,   u ← u + du,   p ← p + δ^{-1} (B\,du - r_2), $$
 //
 // as `cure` does in chapter 18, and on it $du = -\text{gap} - u$. The penalty $δ$ is about
-// $10^{-9}$ on every mesh. Each level of refinement begins with the contact set of the
-// level before.
+// $10^{-9}$ on every mesh in columns. Each level of refinement begins with the contact set
+// of the level before.
 //
 // ## Columns: multigrid finds the kernel
 //
@@ -120,7 +120,9 @@
 // **A stop that contact needs.** Four digits of each correction are not enough here. After
 // a change of the contact set the first residual is large and stiff, and $10^{-4}$ of it
 // hides the soft part that decides the next set: for δ far below $h^2$ the sets then cycle
-// for ever (observed). So the error must also fall below $10^{-6} \sqrt{L^T u}$.
+// for ever (observed). So the error must also fall below $10^{-6} \sqrt{L^T u}$. And δ is
+// here some $h^2 / 256$. With $10^{-9}$ the set changed four times at 114,944 unknowns,
+// and at 460,288 it did not settle (observed).
 //
 // The other way is MUMPS, a direct solver whose ranks share the factor (exercise 2); they
 // send each other its numbers by MPI. BDDC, a method that factors each strip by itself,
@@ -212,7 +214,7 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
       iterations_table({{false, false}, {false, true}, {true, false}, {true, true}}, {32},
                        {1, 1e-2, 1e-4, 1e-6});
   const Table growth =
-      iterations_table({{true, false}, {true, true}}, {32, 64, 128}, {1e-6});
+      iterations_table({{true, false}, {true, true}}, {32, 64, 128, 256}, {1e-6});
   report.stage("a layer without columns, distributed; SNESVI; the serial library");
   const Table without = on_ranks({"multigrid", 1, 32, epsilon}),
               told = on_ranks("any layer", {1, 2, 4}, [](int) { return 32; }, epsilon),
@@ -224,12 +226,15 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
               tao_split = on_ranks({"TAO bntr, split", 1, 32, 1e-6});
   const Solution u = serial(structured_mesh(options.cells), p1(), epsilon);
   tutorial::write_scaling(options.out, strong, weak, cut);
+  tutorial::write_parts(options.out);
+  pairs.write(options.out / "pairs.csv");
+  growth.write(options.out / "growth.csv");
   report.finish();
   for (const Table& runs : {strong, weak, cut, without, told, split, coarse, summed, tao_coarse,
                             tao_summed, tao_split})
     tutorial::print_runs(runs);
-  pairs.print("iterations to 1e-8 at 1/h = 32");
-  growth.print("iterations to 1e-8 with strips");
+  pairs.print("iterations to 1e-8 at 1/h = 32, 200 at most");
+  growth.print("iterations to 1e-8 as 1/h grows");
 
   report.claim_within(std::abs(strong.max("u_max") / u.u.maxCoeff() - 1), 0, 1e-9,
                       "any ranks: away from the serial u by (observed)");
@@ -239,18 +244,21 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
                       "cut columns: iterations times (observed)");
   report.claim(without.entry("reason") == "gave_up",
                "BoomerAMG fails on a layer without columns (observed)");
-  const auto iterations = [](const Table& table, const char* subdomains, const char* hats) {
-    return table.filter("subdomains", subdomains).filter("hats", hats);
+  const auto of_pair = [](const Table& table, const char* name) {
+    return table.filter("pair", name);
   };
-  report.claim(iterations(pairs, "patches", "no").max("iterations") >= 200 &&
-                   iterations(pairs, "patches", "yes").max("iterations") >= 100,
-               "small patches fail as delta falls, with hats and without (observed)");
-  report.claim_within(iterations(growth, "strips", "no").last("iterations") /
-                          iterations(growth, "strips", "no").first("iterations"),
-                      1.2, 5, "strips without hats, 1/h from 32 to 128: times (observed)");
-  report.claim_within(std::max(iterations(pairs, "strips", "yes").max("iterations"),
-                               iterations(growth, "strips", "yes").max("iterations")),
-                      5, 16, "strips and hats, any delta and h: at most (observed)");
+  report.claim_within(std::min(of_pair(pairs, "patches").last("iterations"),
+                               of_pair(pairs, "patches and hats").last("iterations")),
+                      150, 200, "small patches at delta = 1e-6, of 200 allowed (observed)");
+  const auto times = [&](const char* name) {
+    const Table runs = of_pair(growth, name);
+    return runs.last("iterations") / runs.first("iterations");
+  };
+  report.claim_within(times("strips") / times("strips and hats"), 1.1, 4,
+                      "strips alone grow with 1/h, times faster than with hats (observed)");
+  report.claim_within(std::max(of_pair(pairs, "strips and hats").max("iterations"),
+                               of_pair(growth, "strips and hats").max("iterations")),
+                      5, 20, "strips and hats, any delta and h: at most (observed)");
   report.claim_within(told.max("most"), 1, 15,
                       "the same on 1, 2 and 4 ranks: iterations per correction (observed)");
   const std::string reason = summed.entry("reason").text();
@@ -272,12 +280,19 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 // no descent (DIVERGED_LINE_SEARCH after one step), and $u$ is still the start, 0. At ε =
 // 1e-2 the same solver is right, and in the split form it is right at 1e-6.
 //
-// (c) Strips with hat functions, alone. Patches cut the functions that cost nothing, and
-// their iterations grow as δ falls, hat functions or not. Strips without hat functions no
-// longer feel δ, but what is smooth over many strips is left over, so that the iterations
-// grow with 1/h. With both, 10 to 12 iterations stay 10 to 12. On one core this gains
-// nothing over the serial factor in the plane. What it gains is ranks: no rank holds more
-// than its strips, and the largest problem that is factored is one of them.
+// (c) Strips with hat functions, and no other pair.
+//
+// Patches cut the functions that cost nothing. At δ = 1e-6 they use up the 200 iterations
+// that they may take, hat functions or not. Strips alone no longer feel δ. But what is
+// smooth over many strips is left over, and the iterations grow with 1/h, from 15 at 1/h =
+// 32 to 32 at 1/h = 256. With hat functions they are 14 at 1/h = 32, and 17 at 1/h = 128 as
+// well as at 1/h = 256 (observed).
+// :number: 15 = table "iterations to 1e-8 as 1/h grows" iterations pair=strips cells=32
+// :number: 32 = table "iterations to 1e-8 as 1/h grows" iterations pair=strips cells=256
+//
+// On one core this gains nothing over the serial factor in the plane. What it gains is
+// ranks: no rank holds more than its strips, and the largest problem that is factored is
+// one of them.
 //
 // ## Exercises
 //

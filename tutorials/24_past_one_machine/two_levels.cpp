@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "antilock/core/matrix.hpp"
+#include "antilock/io/write_vtu.hpp"
 #include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/space/space.hpp"
 #include "course/course.hpp"
@@ -110,7 +112,7 @@ SparseMatrix coarse_functions(const System& system, bool hats) {
   return p;
 }
 
-/// The sets grown by the graph of the matrix, as often as said.
+/// The set and the unknowns that the graph of the matrix reaches from it in `times` steps.
 Rows grown(const SparseMatrix& a, Rows members, int times) {
   std::vector<char> is_in(a.rows(), 0);
   for (const int i : members) is_in[i] = 1;
@@ -128,8 +130,11 @@ Rows grown(const SparseMatrix& a, Rows members, int times) {
   return members;
 }
 
-/// Strips of full height, 16 h wide, grown by 6 layers of the graph.
-std::vector<Rows> strips_of_layer(const System& system, int cells) {
+/// The layers of the graph by which a strip is grown.
+constexpr int growth = 6;
+
+/// Strips of full height, 16 h wide, grown by that many layers of the graph.
+std::vector<Rows> strips_of_layer(const System& system, int cells, int layers) {
   const int count = std::max(1, cells / 16);
   std::vector<Rows> strips(count);
   for (int e = 0; e < system.space.size(); ++e) {
@@ -137,7 +142,7 @@ std::vector<Rows> strips_of_layer(const System& system, int cells) {
     const int place = static_cast<int>(system.space.dof_coordinates()(e, 0) * count);
     strips[std::clamp(place, 0, count - 1)].push_back(system.row[e]);
   }
-  for (Rows& strip : strips) strip = grown(system.a, strip, 6);
+  for (Rows& strip : strips) strip = grown(system.a, strip, layers);
   return strips;
 }
 
@@ -171,7 +176,7 @@ class Cycle {
  public:
   Cycle(const System& system, const TwoLevels& choice, int cells) : a_(system.a) {
     const TriangleMesh& mesh = system.space.mesh();
-    sets_ = choice.strips ? strips_of_layer(system, cells) : patches_of_layer(system);
+    sets_ = choice.strips ? strips_of_layer(system, cells, growth) : patches_of_layer(system);
     for (const Rows& set : sets_)
       factors_.push_back(std::make_unique<Factor>(submatrix(a_, set)));
     for (int e = 0; e < mesh.edge_count(); ++e)
@@ -269,17 +274,70 @@ int iterations_of(const TwoLevels& choice, const TriangleMesh& mesh, int cells,
   return most;
 }
 
+std::string name_of(const TwoLevels& choice) {
+  const std::string subdomains = choice.strips ? "strips" : "patches";
+  return choice.hats ? subdomains + " and hats" : subdomains;
+}
+
+TriangleMesh mesh_without_columns(int cells) {
+  int coarse = 16;
+  TriangleMesh mesh = jittered_mesh(coarse, 0.2);
+  for (; coarse < cells; coarse *= 2) mesh = refined(mesh);
+  return mesh;
+}
+
 Table iterations_table(const std::vector<TwoLevels>& choices, const std::vector<int>& cells,
                        const std::vector<double>& deltas) {
-  Table table({"subdomains", "hats", "cells", "delta", "iterations"});
+  Table table({"pair", "cells", "delta", "iterations"});
   for (const int n : cells) {
-    const TriangleMesh mesh = unstructured_mesh(n, {}, Mesher::delaunay);
+    const TriangleMesh mesh = mesh_without_columns(n);
     for (const TwoLevels& choice : choices)
       for (const double delta : deltas)
-        table.add({choice.strips ? "strips" : "patches", choice.hats ? "yes" : "no", n,
-                   delta, iterations_of(choice, mesh, n, delta)});
+        table.add({name_of(choice), n, delta, iterations_of(choice, mesh, n, delta)});
   }
   return table;
+}
+
+void write_parts(const std::filesystem::path& folder) {
+  constexpr int cells = 32;
+  const System system(mesh_without_columns(cells), 1);
+  const TriangleMesh& mesh = system.space.mesh();
+  std::vector<double> in_patch(system.a.rows(), 0);
+  std::vector<double> in_strip(system.a.rows(), 0);
+  const std::vector<Rows> patches = patches_of_layer(system);
+  for (const int row : patches[patches.size() / 2]) in_patch[row] = 1;
+  const Rows strip = strips_of_layer(system, cells, 0).front();
+  for (const int row : grown(system.a, strip, growth)) in_strip[row] = 0.5;
+  for (const int row : strip) in_strip[row] = 1;
+
+  // a triangle has the smallest value of its edges, so that the drawing has no half triangles
+  const auto write = [&](const char* name, const std::vector<double>& value) {
+    Eigen::MatrixX3d corners(mesh.triangle_count(), 3);
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      double least = 1;
+      for (const int e : mesh.triangle_edges.row(t))
+        least = std::min(least, system.row[e] < 0 ? 0 : value[system.row[e]]);
+      corners.row(t).setConstant(least);
+    }
+    write_vtu(folder / name, mesh, corners);
+  };
+  write("patch.vtu", in_patch);
+  write("strip.vtu", in_strip);
+
+  const SparseMatrix hats = coarse_functions(system, true);
+  // the hat function nearest to the middle of Sigma is the one with the largest value there
+  Eigen::Index middle = 0;
+  (system.space.dof_coordinates().rowwise() - Eigen::RowVector2d(0.5, -0.5))
+      .rowwise()
+      .squaredNorm()
+      .minCoeff(&middle);
+  Eigen::Index largest = 0;
+  Eigen::VectorXd(SparseMatrix(hats.transpose()).col(system.row[middle])).maxCoeff(&largest);
+  const Eigen::VectorXd hat = hats.col(largest);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(system.space.size());
+  for (int e = 0; e < system.space.size(); ++e)
+    if (system.row[e] >= 0) u(e) = hat(system.row[e]);
+  write_vtu(folder / "hat.vtu", system.space, u);
 }
 
 }  // namespace antilock::tutorial

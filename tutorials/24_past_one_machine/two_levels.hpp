@@ -1,4 +1,6 @@
 #pragma once
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "antilock/mesh/triangle_mesh.hpp"
@@ -25,9 +27,21 @@ struct TwoLevels {
 int iterations_of(const TwoLevels& choice, const TriangleMesh& mesh, int cells,
                   double delta, int most = 200);
 
-/// One row per mesh width, choice and delta, on gmsh's Delaunay mesh: subdomains ("strips"
-/// or "patches"), hats ("yes" or "no"), cells, delta and iterations.
+/// Strips and hat functions, or which of the two: "patches", "patches and hats", "strips" or
+/// "strips and hats".
+std::string name_of(const TwoLevels& choice);
+
+/// A mesh whose layer has no columns: the structured mesh of 1/h = 16 with moved vertices,
+/// refined to 1/h = cells, which is 16 times a power of two. It is the same on every machine.
+TriangleMesh mesh_without_columns(int cells);
+
+/// One row per mesh width, choice and delta, on mesh_without_columns: pair (name_of), cells,
+/// delta and iterations.
 Table iterations_table(const std::vector<TwoLevels>& choices, const std::vector<int>& cells,
                        const std::vector<double>& deltas);
+
+/// patch.vtu, strip.vtu and hat.vtu, on mesh_without_columns(32): a patch and a strip (1 on
+/// its triangles, and 1/2 where the strip has grown), and the edge means of one hat function.
+void write_parts(const std::filesystem::path& folder);
 
 }  // namespace antilock::tutorial
