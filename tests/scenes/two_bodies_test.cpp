@@ -59,6 +59,34 @@ TEST(TwoBodyScenes, AreWhatTheLibrarySolves) {
   }
 }
 
+TEST(TwoBodyScenes, TheMomentIsThatOfTheForcesOnTheUpperBody) {
+  ExtraGroups groups;
+  groups.curves = {{"top of the block", natural_group(0)}, {"below the layer", natural_group(1)}};
+  groups.needs_contact = false;
+  const Space space(read_msh(mesh_file, groups), p1());
+  const Scene direct({[](double, double y) { return y > 0 ? -10 : 0; }}, StiffLayer{1}, {},
+                     {{"top of the block"}, {"below the layer"}});
+  const TwoBodyContact contact{natural_group(0), natural_group(1),
+                               [](double x, double) { return 0.1 * x; }};
+  const VariationalInequality problem = assemble(direct, contact, space);
+  const Eigen::VectorXd force =
+      bound_forces(problem.bounds, active_set(problem).lambda, space.size());
+  const TriangleMesh& mesh = space.mesh();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(space.size());  // and 0 in the lower body
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::Vector3i corners = mesh.triangles.row(t);
+    const double sum_of_y = mesh.vertices(corners(0), 1) + mesh.vertices(corners(1), 1) +
+                            mesh.vertices(corners(2), 1);
+    if (sum_of_y > -3)
+      for (const int unknown : space.cell_dofs().row(t))
+        x(unknown) = space.dof_coordinates()(unknown, 0);
+  }
+  const SceneRun run(scene(sides + "gap = \"0.1*x\"\n", "element = \"P1\"\n", "1"));
+  const auto contact_force = run.summary()["contact_force"];
+  EXPECT_GT(contact_force["normal"].get<double>(), 0);
+  EXPECT_NEAR(contact_force["moment"].get<double>(), force.dot(x), 1e-12);
+}
+
 TEST(TwoBodyScenes, ALayerThatLocksSaysSo) {
   const auto locks = [](const std::string& element, const std::string& epsilon) {
     const SceneRun run(scene(sides, "element = \"" + element + "\"\n", epsilon));

@@ -53,7 +53,9 @@ ContactResults interface_results(const TwoBodyContact& between, const Result& re
   const Eigen::VectorXd x = found.table.col(0);
   found.zone = contact_zone(x, solution.active, contact_ends(result.space.mesh(), between.slave));
   found.force.normal = solution.lambda.sum();
-  found.force.moment = solution.lambda.dot(x);
+  // psi_i is not centred at its place beside a prescribed end
+  const Eigen::VectorXd mean_x = constraints.means * constraints.points.col(0);
+  found.force.moment = solution.lambda.dot(mean_x);
   return found;
 }
 
