@@ -148,6 +148,11 @@ TEST(TwoBodyScenes, SidesThatAreNoInterfaceAreRefused) {
         is_inside(mesh.edges(e, 1)))
       mesh.edge_tag[e] = EdgeTag::clamped;
   refused(mesh, "the master edges cover");
+  mesh = two_body_mesh(square, structured_mesh(4, {0}));
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.vertices(mesh.edges(e, 0), 1) == -1 && mesh.vertices(mesh.edges(e, 1), 1) == -1)
+      mesh.edge_tag[e] = EdgeTag::contact;  // an obstacle below the lower body
+  refused(mesh, "has edges in the group contact");
 }
 
 }  // namespace antilock::test::two_bodies_test

@@ -207,6 +207,12 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file, const Geometry& geometry)
           "has a group layer, which this scene has no use for; accepted: a mesh of the body alone");
     if (!has_layer && depth > 0)
       throw MeshError("has nothing in the physical group \"layer\", which this scene needs");
+    const auto& tags = mesh.edge_tag;
+    if (std::holds_alternative<TwoBodyModel>(scene_file.model) &&
+        std::find(tags.begin(), tags.end(), EdgeTag::contact) != tags.end())
+      throw Error(
+          "has edges in the group contact, although [contact] names slave and master; accepted: "
+          "other groups");
     if (any_shape) return mesh;
     const Extent sigma = check_bottom_edge(mesh, has_layer ? EdgeTag::sigma : EdgeTag::contact);
     if (has_layer) check_layer(mesh, sigma, depth);
