@@ -219,6 +219,17 @@ class SlaveUnknowns {
   std::vector<int> unknowns_;
 };
 
+/// Throws Error for an unknown of both sides: its jump is 0 whatever the bodies do.
+void check_no_common_unknown(const Interface& interface, const SlaveUnknowns& unknowns) {
+  for (const Segment& segment : interface.master)
+    for (const int unknown : unknowns.on(segment))
+      if (unknowns.row(unknown)) {
+        const double t = interface.line.coordinate(interface.space.dof_coordinates().row(unknown));
+        throw Error("interface: the vertex at " + interface.location_text(t) +
+                    " is on both sides; accepted: two bodies without a common vertex");
+      }
+}
+
 /// The values of the functions psi of a slave edge at its local coordinate s, with their rows.
 std::vector<std::pair<int, double>> dual_basis(const SlaveUnknowns& unknowns,
                                                const Segment& segment, double s) {
@@ -297,6 +308,7 @@ InterfaceConstraints interface_constraints(const Space& space, EdgeTag slave, Ed
                                            InterfaceMethod method) {
   const Interface interface = make_interface(space, slave, master);
   const SlaveUnknowns unknowns(interface);
+  check_no_common_unknown(interface, unknowns);
   InterfaceConstraints constraints;
   constraints.places = space.dof_coordinates()(unknowns.all(), Eigen::indexing::all);
   constraints.normal =

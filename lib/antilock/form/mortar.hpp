@@ -41,7 +41,8 @@ struct InterfaceConstraints {
 /// So the psi_i sum to 1 on the slave side, and the forces of a constant pressure are consistent.
 /// Throws Error for another element than P1 or CR, for a tag without edges, for one tag twice, for
 /// edges off the line of the slave side (by 1e-6 of its length), where both bodies are on one side
-/// of this line, and where the master edges do not cover every slave edge exactly once.
+/// of this line, where the master edges do not cover every slave edge exactly once, and for an
+/// unknown of both sides that is not prescribed.
 InterfaceConstraints interface_constraints(const Space& space, EdgeTag slave, EdgeTag master,
                                            InterfaceMethod method);
 

@@ -149,6 +149,19 @@ TEST(Mortar, RefusesSidesThatAreNoInterface) {
       spoilt.edge_tag[e] = EdgeTag::free;
   refused(spoilt, upper_side, lower_side, "the master edges cover 0 of the slave edge");
   EXPECT_NO_THROW(interface_constraints(Space(spoilt, p1()), lower_side, upper_side, mortar));
+  const TriangleMesh free_square = with_free_sides(square);
+  spoilt = two_body_mesh(free_square, free_square);
+  const auto corner = [&](int begin) {
+    int v = begin;
+    while (spoilt.vertices.row(v).norm() > 0) ++v;
+    return v;
+  };
+  const int upper = corner(0), lower = corner(square.vertex_count());
+  for (int& v : spoilt.triangles.reshaped())
+    if (v == lower) v = upper;
+  for (int& v : spoilt.edges.reshaped())
+    if (v == lower) v = upper;
+  refused(spoilt, upper_side, lower_side, "the vertex at (0, 0) is on both sides");
   // the same body on both sides
   spoilt = good;
   for (int e = 0; e < good.edge_count(); ++e)
