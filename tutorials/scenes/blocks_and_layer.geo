@@ -1,4 +1,5 @@
-// Two bodies: a block with the scaled layer below it, and a finer block below that, which is not connected to it.
+// Two bodies: a block with the scaled layer below it, and a finer block below that, which is not
+// connected to it.
 // gmsh -2 -format msh22 blocks_and_layer.geo -o two_bodies.msh
 h = 0.12; k = 0.09;
 Point(1) = {0, 1, 0, h};   Point(2) = {1, 1, 0, h};

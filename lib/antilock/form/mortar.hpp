@@ -38,7 +38,8 @@ struct InterfaceConstraints {
 /// Returns the constraints between the edges with the tag `slave` and those with the tag `master`.
 /// The mortar integrals are exact: Gauss's rule acts on the common refinement of both sides. Where
 /// one end of a slave edge is prescribed, the function psi_i of the other end is 1 on that edge.
-/// So the psi_i sum to 1 on the slave side, and the forces of a constant pressure are consistent.
+/// So the psi_i sum to 1 on the slave edges that have a free unknown, and there the forces of a
+/// constant pressure are consistent.
 /// Throws Error for another element than P1 or CR, for a tag without edges, for one tag twice, for
 /// edges off the line of the slave side (by 1e-6 of its length), where both bodies are on one side
 /// of this line, where the master edges do not cover every slave edge exactly once, and for an

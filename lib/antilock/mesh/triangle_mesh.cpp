@@ -56,7 +56,7 @@ std::map<int, std::set<int>> named_groups_at(const std::vector<TaggedEdge>& tagg
   return groups;
 }
 
-/// Two vertices at one place are a crack that nobody meant, unless they are on edges of two named
+/// Throws Error for two vertices at one place, a crack, unless they are on edges of two named
 /// groups: then each face has its own condition, as two bodies in contact have.
 void check_places(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges,
                   const std::string& where) {

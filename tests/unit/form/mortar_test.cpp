@@ -10,7 +10,7 @@ namespace antilock::test::form_test::mortar_test {
 constexpr InterfaceMethod mortar = InterfaceMethod::mortar;
 constexpr InterfaceMethod node_to_segment = InterfaceMethod::node_to_segment;
 
-/// Every method and element, with either side as the slave, on random meshes.
+/// Calls `act` for both methods and elements, with either side as the slave, on random meshes.
 template <class Act>
 void for_all_constraints(bool free_sides, const Act& act) {
   std::mt19937 random(7);
