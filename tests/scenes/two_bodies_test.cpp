@@ -123,6 +123,33 @@ TEST(TwoBodyScenes, WithAMistakeAreRefusedInOneLine) {
           "contact: names groups of a mesh file");
 }
 
+/// Expects the error `says`, or a contact force where it is empty, for two blocks that are clamped
+/// at their outer sides, with either one as the slave.
+void refuse_or_solve_gap(const std::string& gap, const std::string& says) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "blocks.msh";
+  write_msh(path, two_body_mesh(structured_mesh(3, {0}), structured_mesh(4, {0})),
+            {{"above"}, {"below"}});
+  for (const std::string slave : {"above", "below"}) {
+    const std::string master = slave == "above" ? "below" : "above";
+    const SceneRun run(
+        fmt::format("[load]\nf = \"1\"\n[contact]\nslave = \"{}\"\nmaster = \"{}\"\n"
+                    "gap = \"{}\"\n[mesh]\nkind = \"file\"\nfile = \"{}\"\n",
+                    slave, master, gap, path.string()));
+    if (says.empty())
+      EXPECT_GT(run.summary()["contact_force"]["normal"].get<double>(), 0.1);
+    else
+      expect_no_answer(run, says);
+  }
+}
+
+TEST(TwoBodyScenes, AGapThatNoClampedCornerHasIsRefused) {
+  refuse_or_solve_gap("-1", "contact.gap: gap(0) = -1, but u above - u below = 0 is prescribed");
+  refuse_or_solve_gap("x - 0.5", "contact.gap: gap(0) = -0.5, but u above - u below = 0");
+  refuse_or_solve_gap("1/x", "contact.gap: \"1/x\" is not finite at x = 0");
+  refuse_or_solve_gap("-x*(1 - x)", "");  // the bodies overlap between their corners
+}
+
 TEST(TwoBodyScenes, SidesThatAreNoInterfaceAreRefused) {
   const TriangleMesh square = structured_mesh(3, {0});
   const TemporaryFolder folder;

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 #include "antilock/analysis/locking.hpp"
@@ -145,6 +147,59 @@ Eigen::Vector3d integrals_by_quadrature(const SceneFile& file, const Space& spac
   return {load.sum(), load.dot(at.col(0)), load.dot(at.col(1))};
 }
 
+/// Whether the body beside an edge of its boundary lies above the line of this edge.
+bool is_below_its_body(const TriangleMesh& mesh, int e) {
+  const int t = mesh.edge_triangles(e, 0);
+  Eigen::Vector2d from = mesh.vertices.row(mesh.edges(e, 0));
+  Eigen::Vector2d to = mesh.vertices.row(mesh.edges(e, 1));
+  if (from(0) > to(0)) std::swap(from, to);
+  const Eigen::Vector2d inside = mesh.vertices.row(mesh.triangles(t, local_edge(mesh, t, e)));
+  const Eigen::Vector2d along = to - from, across = inside - from;
+  return along(0) * across(1) - along(1) * across(0) > 0;
+}
+
+/// The ends of the edges with a tag at which a displacement is prescribed.
+std::set<int> prescribed_ends(const TriangleMesh& mesh, EdgeTag tag,
+                              const Eigen::VectorXd& values) {
+  std::set<int> ends;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    for (const int v : mesh.edges.row(e))
+      if (mesh.edge_tag[e] == tag && !std::isnan(values(v))) ends.insert(v);
+  return ends;
+}
+
+/// The gap of two bodies along the slave side. Where displacements are prescribed at one place of
+/// both sides, it must hold there: else no function of finite energy satisfies it.
+void check_gap_between_bodies(const SceneFile& file, const TwoBodyContact& between,
+                              const TriangleMesh& mesh) {
+  bool is_slave_above = true;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != between.slave) continue;
+    is_slave_above = is_below_its_body(mesh, e);
+    const Eigen::Vector2d from = mesh.vertices.row(mesh.edges(e, 0));
+    const Eigen::Vector2d to = mesh.vertices.row(mesh.edges(e, 1));
+    for (int i = 0; i <= 32; ++i) {
+      const Eigen::Vector2d x = from + (to - from) * i / 32;
+      between.gap(x(0), x(1));  // throws where it is not finite
+    }
+  }
+  const Eigen::VectorXd values = prescribed(file, mesh);
+  const double slack = 1e-6 * body_size(mesh);  // as form/mortar.cpp takes two places for one
+  for (const int a : prescribed_ends(mesh, between.slave, values))
+    for (const int b : prescribed_ends(mesh, between.master, values)) {
+      if ((mesh.vertices.row(a) - mesh.vertices.row(b)).norm() > slack) continue;
+      const double x = mesh.vertices(a, 0);
+      const double gap = between.gap(x, mesh.vertices(a, 1));
+      const double jump = is_slave_above ? values(a) - values(b) : values(b) - values(a);
+      const double scale = std::max({std::abs(gap), std::abs(values(a)), std::abs(values(b))});
+      if (jump + gap < -1e-6 * scale)  // the two places may differ by as much
+        throw InputError(fmt::format(
+            "{}: contact.gap: gap({:.6g}) = {:.6g}, but u above - u below = {:.6g} is prescribed "
+            "there; accepted: gap >= -(u above - u below) where both bodies have a given u",
+            file.name, x, gap, jump));
+    }
+}
+
 }  // namespace
 
 void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
@@ -157,6 +212,8 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
     for (const double s : {0.0, 0.5, 1.0})
       f((1 - s) * from(0) + s * to(0), (1 - s) * from(1) + s * to(1));
   }
+  if (const auto* bodies = std::get_if<TwoBodyModel>(&file.model))
+    check_gap_between_bodies(file, bodies->between, mesh);
   if (!file.scene.contact()) return;
   const auto& [gap, zero_at, upper_obstacle] = *file.scene.contact();
   const Eigen::VectorXd values = prescribed(file, mesh);

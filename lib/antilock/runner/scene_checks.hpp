@@ -9,9 +9,10 @@
 namespace antilock {
 
 /// Evaluates the load at the vertices and edge midpoints of the body, and the bounds gap and
-/// ceiling along Gamma_C, the contact boundary. Throws Error, `FILE: KEY: ...`, where one of them
-/// has no finite value, where the ceiling is below the obstacle, and where a displacement
-/// prescribed at a vertex of Gamma_C violates one of the two bounds.
+/// ceiling along Gamma_C, the contact boundary, or along the slave side of two bodies. Throws
+/// Error, `FILE: KEY: ...`, where one of them has no finite value, where the ceiling is below the
+/// obstacle, and where displacements prescribed at a vertex of Gamma_C, or at one place of both
+/// bodies, violate one of the bounds.
 void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh);
 
 /// Returns a warning if the quadrature misses a part of the load f, else an empty text. The
