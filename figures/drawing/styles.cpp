@@ -49,6 +49,7 @@ const Row rows[] = {
     {"hat means", "bounds on hat means", "hat means", {blue, circle, 6}},
     {"Gauss points", "bounds at Gauss points", "Gauss points", {vermillion, square, 6}},
     {"BDM1-hybrid", "hybrid BDM1", "", {green, diamond, 6}},
+    {"Fortin-Soulie", "Fortin–Soulie", "", {black, circle, 2.5}},
     // methods of nearly incompressible elasticity
     {"P1 right diagonals", "$P_1$, right diagonals", "", {blue, circle, 9}},
     {"P1 crossed triangles", "$P_1$, crossed triangles", "", {indigo, down_triangle, 9}},
@@ -179,6 +180,7 @@ const Row rows[] = {
     {"structured", "structured mesh", "structured", {blue, circle, 6}},
     {"unstructured", "unstructured mesh", "unstructured", {vermillion, square, 6}},
     {"layered", "layered mesh", "layered", {olive, down_triangle, 6}},
+    {"right diagonals", "right diagonals", "", {blue, circle, 6}},
     {"columns", "columns", "", {green, diamond, 7}},
     {"rows", "rows", "", {purple, triangle, 7}},
     {"Frontal-Delaunay", "Frontal-Delaunay", "", {blue, circle, 8}},

@@ -79,19 +79,49 @@ inline int strainless_polynomials(const TriangleMesh& mesh, int degree) {
   return kernel_dimension(conditions);
 }
 
+/// Appends the equation of fortin_soulie(), one per triangle or per triangle of the layer, to
+/// a problem of hybrid BDM1, as rows of B with the compliance 0. The weights M are those of
+/// models/plane_strain.cpp, which has the reasons. They change the number of corrections, and
+/// not the solution.
+inline VariationalInequality with_equations(VariationalInequality problem,
+                                            const Space& space, bool layer_alone = false) {
+  const TriangleMesh& mesh = space.mesh();
+  const Eigen::VectorXd equation = fortin_soulie().equation();
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<double> areas;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (layer_alone && mesh.region[t] != Region::layer) continue;
+    const auto row = static_cast<int>(areas.size());
+    for (int i = 0; i < 6; ++i)  // the coefficient of the mean is 0
+      entries.emplace_back(row, space.cell_dofs()(t, i), equation(i));
+    areas.push_back(mesh.area(t));
+  }
+  const auto count = static_cast<Eigen::Index>(areas.size());
+  RowMatrix rows(count, space.size());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::Map<const Eigen::VectorXd> area(areas.data(), count);
+  append_rows(problem, rows, 300 * area.sum() * area.cwiseInverse(),
+              Eigen::VectorXd::Zero(count));
+  return problem;
+}
+
 /// Returns a row per element, mesh and h with the largest energy error over epsilon,
-/// `worst`.
+/// `worst`. `panel` is the title of the mesh in the picture: with the name "structured" the
+/// renderer would take a curve for a method with a style of its own.
 inline Table worst_over_epsilon(const Table& all) {
-  Table worst({"mesh", "element", "cells", "h", "unknowns", "worst"});
-  for (const TableEntry& mesh : all.unique("mesh"))
+  Table worst({"mesh", "panel", "element", "cells", "h", "unknowns", "worst"});
+  for (const TableEntry& mesh : all.unique("mesh")) {
+    const TableEntry panel =
+        mesh == TableEntry("structured") ? TableEntry("right diagonals") : mesh;
     for (const TableEntry& element : all.unique("element")) {
       const Table runs = all.filter("mesh", mesh).filter("element", element);
       for (const TableEntry& cells : runs.unique("cells")) {
         const Table here = runs.filter("cells", cells);
-        worst.add({mesh, element, cells, here.first("h"), here.first("unknowns"),
+        worst.add({mesh, panel, element, cells, here.first("h"), here.first("unknowns"),
                    here.max("energy")});
       }
     }
+  }
   return worst;
 }
 
@@ -104,6 +134,7 @@ inline Table prices(const Table& runs) {
   for (const TableEntry& mesh : runs.unique("mesh"))
     for (const TableEntry& element : runs.unique("element")) {
       const Table here = runs.filter("mesh", mesh).filter("element", element);
+      if (here.size() == 0) continue;
       std::vector<TableEntry> row{mesh, element};
       for (const auto& [name, accuracy] : accuracies) {
         const auto reached = [most = accuracy](double error) { return error <= most; };
