@@ -139,7 +139,9 @@ void check_sides(const Interface& interface) {
     double covered = 0;
     for (const Segment& other : interface.opposite_to(edge.from(), edge.to()))
       covered += std::min(edge.to(), other.to()) - std::max(edge.from(), other.from());
-    if (std::abs(covered - edge.length()) > slack * interface.line.length)
+    // an edge that is shorter than the slack must meet the master, or its mean is 0 / 0
+    const double allowed = std::min(slack * interface.line.length, edge.length() / 2);
+    if (std::abs(covered - edge.length()) > allowed)
       throw Error(fmt::format(
           "interface: the master edges cover {:.6g} of the slave edge from {} to {}, {:.6g} long; "
           "accepted: a master side that covers the slave side once (the shorter side is the slave)",

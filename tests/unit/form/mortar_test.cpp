@@ -149,6 +149,15 @@ TEST(Mortar, RefusesSidesThatAreNoInterface) {
       spoilt.edge_tag[e] = EdgeTag::free;
   refused(spoilt, upper_side, lower_side, "the master edges cover 0 of the slave edge");
   EXPECT_NO_THROW(interface_constraints(Space(spoilt, p1()), lower_side, upper_side, mortar));
+  spoilt = good;
+  for (int v = 0; v < square.vertex_count(); ++v) {
+    double& x = spoilt.vertices(v, 0);
+    if (x == 0)
+      x = -1e-7;  // beside the master
+    else if (x == 0.25)
+      x = 0;
+  }
+  refused(spoilt, upper_side, lower_side, "the master edges cover 0 of the slave edge");
   const TriangleMesh free_square = with_free_sides(square);
   spoilt = two_body_mesh(free_square, free_square);
   const auto corner = [&](int begin) {
