@@ -85,10 +85,12 @@ TEST(ExtrudedLayer, LeavesP1OneFunctionInTheKernelPerInteriorColumn) {
 /// on y = 0, held at the other radius.
 TriangleMesh half_ring(int cells, double held) {
   TriangleMesh mesh = structured_mesh(cells, {0});
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] == EdgeTag::clamped)
-      mesh.edge_tag[e] = mesh.vertices(mesh.edges.row(e), 1).minCoeff() == 1 ? dirichlet_group(1)
-                                                                             : natural_group(0);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
+    const Eigen::Vector2i ends = mesh.edges.row(e);
+    const bool is_at_top = mesh.vertices(ends(0), 1) == 1 && mesh.vertices(ends(1), 1) == 1;
+    mesh.edge_tag[e] = is_at_top ? dirichlet_group(1) : natural_group(0);
+  }
   for (auto row : mesh.vertices.rowwise()) {
     const double r = 1 + (held - 1) * row(1),
                  angle = std::numbers::pi * (held > 1 ? 1 - row(0) : 1 + row(0));
