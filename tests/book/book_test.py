@@ -196,9 +196,10 @@ class EveryPage(Book):
         self.assertIn(BOOK / "_static/live_data.js", files)  # holds the WebAssembly and the meshes
         self.assertLess(first, 1.5e6)
         self.assertNotIn(BOOK / "_static/programs_data.js", files)  # asked for when the first button is pressed
-        # measured 13.8 MB with 39 chapters: texts 7.4, WebAssembly and its search 4.1, pictures 1.7, sources 0.6. A picture
-        # or a module that is stored twice adds 1.5 MB or more.
-        self.assertLess(whole, 14.5e6)
+        # Measured: 14.7 MB with 39 chapters and four lectures: texts 8.0, scripts with the WebAssembly
+        # and the search 3.9, pictures 1.8, sources 0.7. A picture or a module that is stored a second
+        # time adds 1.5 MB or more.
+        self.assertLess(whole, 15.5e6)
 
     def test_the_contents_and_the_theme_are_there_at_every_width(self):
         seen = """const box = document.querySelector(".toc-drawer").getBoundingClientRect();
@@ -644,7 +645,7 @@ class Slides(Book):
 class Search(Book):
     def test_answers_from_a_folder(self):
         for words, at_least, first in (("kernel", 3, "07_kernel.html"), ("Crouzeix", 3, "08_crouzeix_raviart.html"), ("complementarity", 1, ""),
-                                       ("friction Tresca", 2, "30_friction.html#from-the-energy-to-stick-and-slip"), ("no-such-word", 0, "")):
+                                       ("friction Tresca", 2, "30_friction.html#coulomb"), ("no-such-word", 0, "")):
             with self.subTest(words=words):
                 self.show("search", query=f"?q={words.replace(' ', '+')}")
                 self.wait("return 'ready' in document.querySelector('#search-results').dataset", seconds=10)
