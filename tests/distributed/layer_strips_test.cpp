@@ -70,7 +70,7 @@ TEST(LayerStrips, MeetInATriangleAtMostWithTheirNeighbours) {
   EXPECT_LE(most, ranks() == 1 ? 3 : 5);
 }
 
-/// What the refusal of the strips says; empty where they are accepted.
+/// Returns the message with which the strips are refused, or nothing where they are accepted.
 std::string refusal_of(const DistributedProblem& problem, long long most_unknowns) {
   try {
     const LayerStrips strips(problem, most_unknowns);

@@ -521,7 +521,7 @@ TEST(FreeFemScripts, WriteTheNumbersOfTheLibrary) {
   for (const double epsilon : {1.0, 1e-2})
     same([&](Path at) { return freefem::interior_penalty(8, epsilon, at); }, 1e-9);
   // the library's corrections stop at 1e-10 of u, and a derivative of the stress divides the error
-  // by h twice
+  // by h^2
   for (const double epsilon : {1.0, 1e-2, 0.0})
     same([&](Path at) { return freefem::mixed_bdm1(8, epsilon, at); }, 1e-7);
   // two ways to integrate the glue (Gauss points here, P1dc there), one bilinear form
