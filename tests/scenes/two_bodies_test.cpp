@@ -87,7 +87,7 @@ TEST(TwoBodyScenes, TheMomentIsThatOfTheForcesOnTheUpperBody) {
   EXPECT_NEAR(contact_force["moment"].get<double>(), force.dot(x), 1e-12);
 }
 
-TEST(TwoBodyScenes, ALayerThatLocksSaysSo) {
+TEST(TwoBodyScenes, WarnOfALayerThatLocks) {
   const auto locks = [](const std::string& element, const std::string& epsilon) {
     const SceneRun run(scene(sides, "element = \"" + element + "\"\n", epsilon));
     const std::string warning = run.summary()["warning"];
