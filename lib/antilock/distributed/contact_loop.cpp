@@ -15,11 +15,12 @@
 namespace antilock::distributed {
 namespace {
 
-constexpr double inner =
-    1e-4;  // conjugate gradients: what they leave of a correction, in the energy norm
-constexpr double inner_of_iterate =
-    1e-6;  // the same, relative to the energy norm of the iterate (contact_loop)
-constexpr int most_sets = 2000;  // contact sets tried
+/// The error at which conjugate gradients stop, relative to the correction, in the energy norm.
+constexpr double inner = 1e-4;
+/// With strips the error must also be below this, relative to the iterate (contact_loop).
+constexpr double inner_of_iterate = 1e-6;
+/// The contact sets that may be tried.
+constexpr int most_sets = 2000;
 
 /// The error in the energy norm at which conjugate gradients stop, and the iterations that they may
 /// take.
