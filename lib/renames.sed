@@ -235,3 +235,6 @@ s/\brefined_piece\b/refined_subdomain/g
 s/\bfirst_said\b/first_nonempty/g
 s/\bfrom_first\b/broadcast/g
 s/\bmost_(iterations|corrections)\b/max_\1/g
+
+s/\bmake_triangle_mesh\b/make_mesh/g
+s/\bmeans_on_edge\b/means_on_facet/g

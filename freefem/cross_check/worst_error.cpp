@@ -38,9 +38,8 @@ class ByPlace {
   Eigen::Vector2d gradient(const Eigen::VectorXd& u, double x, double y) const {
     const auto [t, lambda] = place(x, y);
     const Eigen::VectorXd local = u(space_.cell_dofs().row(t));
-    return (space_.element().derivative(lambda) * barycentric_gradients(space_.mesh(), t))
-               .transpose() *
-           local;
+    const Eigen::MatrixX3d derivative = space_.element().derivative(lambda);
+    return (derivative * barycentric_gradients(space_.mesh(), t)).transpose() * local;
   }
 
   /// The stress in the layer, one value per triangle of it.

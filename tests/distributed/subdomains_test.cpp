@@ -102,16 +102,15 @@ TEST(Pieces, RefinedAreThePiecesOfTheRefinedMesh) {
 
 // Two triangles with one point in common: the ranks share an unknown there, though no edge.
 TEST(Pieces, ThatMeetAtAPointAloneShareIt) {
-  const TriangleMesh bow =
-      make_triangle_mesh(Points{{0, 0}, {0.5, 0}, {0, 1}, {1, 0}, {1, 1}},
-                         Triples{{0, 1, 2}, {1, 3, 4}}, {Region::body, Region::body},
-                         {{0, 1, EdgeTag::contact},
-                          {1, 3, EdgeTag::contact},
-                          {1, 2, EdgeTag::clamped},
-                          {0, 2, EdgeTag::clamped},
-                          {3, 4, EdgeTag::clamped},
-                          {1, 4, EdgeTag::clamped}},
-                         "bow");
+  const TriangleMesh bow = make_mesh(Points{{0, 0}, {0.5, 0}, {0, 1}, {1, 0}, {1, 1}},
+                                     Triples{{0, 1, 2}, {1, 3, 4}}, {Region::body, Region::body},
+                                     {{0, 1, EdgeTag::contact},
+                                      {1, 3, EdgeTag::contact},
+                                      {1, 2, EdgeTag::clamped},
+                                      {0, 2, EdgeTag::clamped},
+                                      {3, 4, EdgeTag::clamped},
+                                      {1, 4, EdgeTag::clamped}},
+                                     "bow");
   EXPECT_EQ(subdomain_of(bow, {1, 1}, 1).triangle_count(), 2);
   const TriangleMesh subdomain = subdomain_of(bow, {0, ranks() - 1}, rank());
   EXPECT_EQ(sum(static_cast<long long>(DofMap(Space(subdomain, p1())).owned())), 5);

@@ -56,8 +56,7 @@ TriangleMesh jittered(const TriangleMesh& mesh, double reach, unsigned seed) {
     }
     moved.vertices.row(v) = home + reach * room * way;
   }
-  return make_triangle_mesh(moved.vertices, moved.triangles, moved.region, boundary(mesh),
-                            "jittered");
+  return make_mesh(moved.vertices, moved.triangles, moved.region, boundary(mesh), "jittered");
 }
 
 double worst_aspect(const TriangleMesh& mesh) {
@@ -252,9 +251,8 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
         region.push_back(mesh.region[t]);
       }
       std::vector<TaggedEdge> tagged = boundary(mesh);
-      for (TaggedEdge& e : tagged) e = {vertex[e.to], vertex[e.from], e.tag};
-      const Space other(make_triangle_mesh(vertices, triangles, region, tagged, "shuffled"),
-                        chosen());
+      for (TaggedEdge& e : tagged) e = {vertex[e.vertices[1]], vertex[e.vertices[0]], e.tag};
+      const Space other(make_mesh(vertices, triangles, region, tagged, "shuffled"), chosen());
       VariationalInequality problem = stiff_problem(other, epsilon);
       // out of order they only cost steps
       std::shuffle(problem.bounds.unknowns.begin(), problem.bounds.unknowns.end(), random);

@@ -14,9 +14,10 @@ double largest_jump(const Space& space, const Eigen::VectorXd& u) {
     const Eigen::Matrix<double, 3, 2> slopes = barycentric_gradients(mesh, t);
     for (int i = 0; i < 3; ++i)
       for (const int corner : {(i + 1) % 3, (i + 2) % 3}) {
+        const Eigen::MatrixX3d derivative =
+            space.element().derivative(Eigen::Vector3d::Unit(corner));
         const Eigen::RowVector2d gradient =
-            u(space.cell_dofs().row(t)).transpose() *
-            space.element().derivative(Eigen::Vector3d::Unit(corner)) * slopes;
+            u(space.cell_dofs().row(t)).transpose() * derivative * slopes;
         const int e = mesh.triangle_edges(t, i),
                   end = mesh.edges(e, 0) == mesh.triangles(t, corner) ? 0 : 1;
         jump(e, end) -= gradient.dot(slopes.row(i).normalized());

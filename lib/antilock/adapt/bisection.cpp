@@ -141,21 +141,23 @@ class Children {
 
 TriangleMesh bisected(const TriangleMesh& mesh, const std::vector<bool>& triangles,
                       const std::vector<bool>& edges) {
+  require_triangles(mesh, "bisected mesh");
   const bool one_per_triangle = static_cast<int>(triangles.size()) == mesh.triangle_count();
   const bool one_per_edge = static_cast<int>(edges.size()) == mesh.edge_count();
   if (!one_per_triangle || (!edges.empty() && !one_per_edge))
     throw Error("bisection: accepted: one mark per triangle, one per edge or none");
   HalvedEdges halved = halved_edges(mesh, edges_to_halve(mesh, triangles, edges));
   Children children(mesh, halved.middle);
-  TriangleMesh finer = make_triangle_mesh(std::move(halved.vertices), std::move(children.corners()),
-                                          std::move(children.region()), halved.tagged,
-                                          refinement_name(mesh, "bisected mesh"));
+  TriangleMesh finer = make_mesh(std::move(halved.vertices), std::move(children.corners()),
+                                 std::move(children.region()), halved.tagged,
+                                 refinement_name(mesh, "bisected mesh"));
   finer.geometry = mesh.geometry;
   finer.curved_columns = std::move(children.columns());
   return finer;
 }
 
 TriangleMesh longest_edge_first(TriangleMesh mesh) {
+  require_triangles(mesh, "longest edges first");
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     int longest = 0;
     for (int i = 1; i < 3; ++i)

@@ -294,6 +294,7 @@ double LockingLoss::share(double energy) const {
 }
 
 LockingLoss locking_loss(const Scene& scene, const Result& result) {
+  require_triangles(result.space.mesh(), "locking loss");
   if ((result.problem.fixed_compliances.array() > 0).any())
     return locking_loss(scene, assemble_fixed_rows(result));
   const Comparison c = comparison_for(scene, result);

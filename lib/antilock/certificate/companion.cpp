@@ -233,6 +233,7 @@ Eigen::Vector2d ConformingCompanion::flux(const TriangleMesh& mesh, int t, int r
 
 Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space,
                                   const Eigen::VectorXd& near) {
+  require_triangles(space.mesh(), "bounds of K");
   const TriangleMesh& mesh = space.mesh();
   const std::vector<int> number = contact_numbers(space);
   Eigen::VectorXd lower =
@@ -257,6 +258,7 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space&
 }
 
 VariationalInequality assemble_in_k(const Scene& scene, const Space& space) {
+  require_triangles(space.mesh(), "functions in K");
   VariationalInequality problem = assemble(scene, space);
   if (scene.contact())
     problem.bounds.lower =
@@ -265,6 +267,7 @@ VariationalInequality assemble_in_k(const Scene& scene, const Space& space) {
 }
 
 ConformingCompanion local_companion(const Scene& scene, const Result& result, bool on_mesh) {
+  require_triangles(result.space.mesh(), "companion");
   const TriangleMesh& mesh = result.space.mesh();
   const auto* stiff = on_mesh ? nullptr : std::get_if<StiffLayer>(&scene.layer());
   const std::vector<char> held = held_vertices(result);

@@ -412,6 +412,7 @@ Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t,
 }
 
 EquilibratedFlux equilibrated_flux(const Scene& scene, const Result& result) {
+  require_triangles(result.space.mesh(), "equilibrated flux");
   const VariationalInequality& problem = result.problem;
   if ((problem.fixed_compliances.array() > 0).any())
     return equilibrated_flux(scene, assemble_fixed_rows(result));

@@ -91,7 +91,8 @@ void NestedLevel::start_from(const NestedLevel& coarse) {
   const Element& element = space.element();
   std::array<Eigen::Matrix3d, 4> values;  // the parent's basis at the unknowns of child i
   for (int i = 0; i < 4; ++i) {
-    const Eigen::Matrix3d nodes = element.support_points() * corners_of_child(i);
+    const Eigen::Matrix3d support = element.support_points();
+    const Eigen::Matrix3d nodes = support * corners_of_child(i);
     for (int k = 0; k < 3; ++k) values[i].row(k) = element.basis(nodes.row(k)).transpose();
   }
   for (Eigen::Index t = 0; t < space.cell_dofs().rows(); ++t) {
@@ -110,6 +111,7 @@ void NestedLevel::start_from(const NestedLevel& coarse) {
 std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse,
                                           const Element& element, const NestedOptions& options,
                                           NestedReport& report) {
+  require_triangles(coarse, "solution on nested meshes");
   Stopwatch watch;
   TriangleMesh subdomain;
   Preconditioner preconditioner = Preconditioner::multigrid;

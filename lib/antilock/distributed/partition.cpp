@@ -43,6 +43,7 @@ std::vector<int> column_of_triangles(const TriangleMesh& mesh, const std::vector
 }  // namespace
 
 int find_triangle_across_columns(const TriangleMesh& mesh) {
+  require_triangles(mesh, "columns of the layer");
   const std::vector<double> lines = column_lines(mesh);
   if (lines.size() < 2) return -1;
   const std::vector<int> column = column_of_triangles(mesh, lines);
@@ -57,6 +58,7 @@ int find_triangle_across_columns(const TriangleMesh& mesh) {
 }
 
 std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks) {
+  require_triangles(mesh, "partition into strips");
   const std::vector<double> lines = column_lines(mesh);
   const int columns = static_cast<int>(lines.size()) - 1;
   if (columns < ranks)
@@ -88,6 +90,7 @@ std::vector<int> strip_partition(const TriangleMesh& mesh, int ranks) {
 }
 
 TriangleMesh subdomain_of(const TriangleMesh& coarse, const std::vector<int>& rank_of, int rank) {
+  require_triangles(coarse, "subdomain");
   TriangleMesh subdomain;
   std::vector<int> triangles, vertices, number(coarse.vertex_count(), -1);
   for (int t = 0; t < coarse.triangle_count(); ++t) {
@@ -113,6 +116,7 @@ TriangleMesh subdomain_of(const TriangleMesh& coarse, const std::vector<int>& ra
 }
 
 TriangleMesh refined_subdomain(const TriangleMesh& mesh) {
+  require_triangles(mesh, "refined subdomain");
   const int corners = mesh.vertex_count();  // the midpoint of edge e becomes vertex corners + e
   TriangleMesh cut;
   cut.vertices.resize(corners + mesh.edge_count(), 2);
@@ -122,11 +126,11 @@ TriangleMesh refined_subdomain(const TriangleMesh& mesh) {
         0.5 * (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1)));
   cut.triangles.resize(4 * mesh.triangles.rows(), 3);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Eigen::RowVector3i v = mesh.triangles.row(t),
-                             m = mesh.triangle_edges.row(t).array() + corners;
+    const Eigen::RowVector3i v = mesh.triangles.row(t).head<3>();
+    const Eigen::RowVector3i m = mesh.triangle_edges.row(t).head<3>().array() + corners;
     for (int i = 0; i < 3; ++i)
       cut.triangles.row(4 * t + i) << v(i), m((i + 2) % 3), m((i + 1) % 3);
-    cut.triangles.row(4 * t + 3) = m;
+    cut.triangles.row(4 * t + 3) << m(0), m(1), m(2);
     cut.region.insert(cut.region.end(), 4, mesh.region[t]);
   }
   number_edges(cut, "a subdomain of the mesh");

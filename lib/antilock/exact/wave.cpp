@@ -1,7 +1,6 @@
 #include "antilock/exact/wave.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace antilock {
@@ -53,24 +52,21 @@ double decay_slope(double a, double y) {
 // 0. Multiply -G'' + a^2 G = f_k by S and integrate by parts twice: int f_k S = G'(0); by S(1-y):
 //    int f_k S(1-y) =
 // -G'(1). Hence int f_k G = int f_k P - P(0) G'(0) + P(1) G'(1).
-LoadResponse::LoadResponse(int k, Polynomial profile)
-    : k_(k),
-      a_(k * std::numbers::pi),
-      force_(std::move(profile)),
-      particular_(particular_solution(force_, a_)) {
+WaveResponse::WaveResponse(double a, Polynomial profile)
+    : a_(a), force_(std::move(profile)), particular_(particular_solution(force_, a_)) {
   pull_ = slope(0);
   work_ = integral_of_product(force_, particular_) - evaluate(particular_, 0) * slope(0) +
           evaluate(particular_, 1) * slope(1);
 }
 
-double LoadResponse::force(double y) const { return evaluate(force_, y); }
+double WaveResponse::force(double y) const { return evaluate(force_, y); }
 
-double LoadResponse::value(double y) const {
+double WaveResponse::value(double y) const {
   return evaluate(particular_, y) - evaluate(particular_, 0) * decay(a_, y) -
          evaluate(particular_, 1) * decay(a_, 1 - y);
 }
 
-double LoadResponse::slope(double y) const {
+double WaveResponse::slope(double y) const {
   return evaluate_slope(particular_, y) + a_ * evaluate(particular_, 0) * decay_slope(a_, y) -
          a_ * evaluate(particular_, 1) * decay_slope(a_, 1 - y);
 }
@@ -89,7 +85,7 @@ double LoadResponse::slope(double y) const {
 //   mu).
 // Written so, nothing divides by epsilon: at 0, lambda = (T + a^2) c - G'(0), the Ventcel symbol of
 // (25), and w = c.
-Symbols::Symbols(int k, double epsilon) : a(k * std::numbers::pi), body(a / std::tanh(a)) {
+Symbols::Symbols(double wave, double epsilon) : a(wave), body(a / std::tanh(a)) {
   const double kappa = epsilon * a;
   const double tanh_kappa = std::tanh(kappa);
   const double one_plus_mu = 1 + epsilon * tanh_kappa / std::tanh(a);

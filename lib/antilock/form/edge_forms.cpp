@@ -1,7 +1,8 @@
-// Integrals over the edges of a group: what pulls there, springs, and the Ventcel term.
+// Integrals over the facets of a group: what pulls there, springs, and the Ventcel term.
 #include "antilock/form/edge_forms.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -12,25 +13,26 @@
 namespace antilock {
 namespace {
 
-/// act(triangle, weight, value of f, values of the basis) at the Gauss points of each edge with the
-/// tag.
+/// act(cell, weight, value of f, values of the basis) at the points of a rule on each facet with
+/// the tag.
 template <class Act>
 void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
   const TriangleMesh& mesh = space.mesh();
-  const auto [points, weights] = gauss_rule(space.element().degree() + 2);
+  const Quadrature rule = facet_rule(mesh.kind, 2 * space.element().degree() + 3);
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < mesh.reference().facets; ++i) {
       const int e = mesh.triangle_edges(t, i);
       if (mesh.edge_tag[e] != tag) continue;
       const double share =
-          mesh.edge_triangles(e, 1) < 0 ? 1 : 0.5;  // between two triangles: the mean of both sides
-      for (Eigen::Index q = 0; q < points.size(); ++q) {
-        const Eigen::Vector3d lambda = on_edge(i, points(q));
-        const Eigen::Vector2d x = point_in(mesh, t, lambda);
-        const double value = f(x(0), x(1));
+          mesh.edge_triangles(e, 1) < 0 ? 1 : 0.5;  // between two cells: the mean of both sides
+      for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+        const ReferencePoint xi = on_facet(mesh.kind, i, rule.points.row(q));
+        const Eigen::Vector3d x = position(mesh, t, xi);
+        const double value = f(x(0), x(1), x(2));
         if (!std::isfinite(value))
-          throw Error(fmt::format("edge: its value at ({:.6g}, {:.6g}) is not finite", x(0), x(1)));
-        act(t, share * weights(q) * mesh.edge_length(e), value, space.element().basis(lambda));
+          throw Error(fmt::format("edge: its value at ({:.6g}) is not finite",
+                                  fmt::join(x.data(), x.data() + mesh.dimension(), ", ")));
+        act(t, share * rule.weights(q) * mesh.facet_measure(e), value, space.element().basis(xi));
       }
     }
 }
@@ -80,6 +82,7 @@ Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::Vector
   if (space.element().degree() != 1)
     throw Error("Ventcel term: element " + space.element().name() + " is not accepted; P1 or CR");
   const TriangleMesh& mesh = space.mesh();
+  require_triangles(mesh, "Ventcel term");
   std::vector<int> on_sigma(mesh.vertex_count(), 0), held = on_sigma;  // edges at each vertex
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e)) {

@@ -9,9 +9,9 @@
 
 namespace antilock {
 
-/// Returns the N values of int g phi_i over the edges with this tag, phi_i the basis functions. On
-/// an edge between two triangles phi_i is the mean of both sides. Gauss's rule is exact for g of
-/// degree k + 3, k the degree of the element. Throws Error where g is not finite.
+/// Returns the N values of int g phi_i over the facets with this tag, phi_i the basis functions. On
+/// a facet between two cells phi_i is the mean of both sides. The rule is exact for g of degree k +
+/// 3, k the degree of the element. Throws Error where g is not finite.
 Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g);
 /// Returns the N x N matrix of int k u v over these edges. Throws Error where k is negative or not
 /// finite.

@@ -2,6 +2,7 @@
 #include "antilock/form/gradient_forms.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -13,31 +14,191 @@
 #include "antilock/mesh/quadrature.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"
+#include "antilock/space/cell_map.hpp"
 #include "antilock/space/space.hpp"
 
 namespace antilock {
 namespace {
 
-std::vector<Eigen::MatrixX3d> derivatives_at(const Element& element, const Quadrature& rule) {
-  std::vector<Eigen::MatrixX3d> derivatives;
+/// The derivatives of the basis at the points of a rule, which are the same on every cell.
+template <CellKind kind>
+std::vector<Eigen::Matrix<double, Eigen::Dynamic, reference_cell(kind).coordinates>> derivatives_at(
+    const Element& element, const Quadrature& rule) {
+  std::vector<Eigen::Matrix<double, Eigen::Dynamic, reference_cell(kind).coordinates>> derivatives;
   for (const auto point : rule.points.rowwise()) derivatives.push_back(element.derivative(point));
   return derivatives;
+}
+
+/// act(q, factor, gradients of xi) at the points of a rule on cell t. On a simplex the map is
+/// evaluated once.
+template <CellKind kind, class Act>
+void at_rule_points(const Mesh& mesh, int t, const Quadrature& rule, Act&& act) {
+  const CellMap<kind> map(mesh, t);
+  auto here = map.at(rule.points.row(0).transpose());
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+    if constexpr (!reference_cell(kind).simplex) here = map.at(rule.points.row(q).transpose());
+    act(q, here.factor, here.gradient);
+  }
+}
+
+/// weight * (stiffness.x sum over the axes along the layer + stiffness.y across it) of d_k phi_i
+/// d_k phi_j.
+template <class Local, class Gradient>
+void add_squares(Local& matrix, double weight, const Stiffness& stiffness,
+                 const Gradient& gradient) {
+  if constexpr (Gradient::ColsAtCompileTime == 3)
+    matrix += weight * stiffness.x * gradient.col(0) * gradient.col(0).transpose() +
+              weight * stiffness.x * gradient.col(1) * gradient.col(1).transpose() +
+              weight * stiffness.y * gradient.col(2) * gradient.col(2).transpose();
+  else
+    matrix += weight * stiffness.x * gradient.col(0) * gradient.col(0).transpose() +
+              weight * stiffness.y * gradient.col(1) * gradient.col(1).transpose();
+}
+
+template <CellKind kind>
+Eigen::SparseMatrix<double> gradient_form_on(const Space& space,
+                                             const std::vector<Stiffness>& of_triangle) {
+  [[maybe_unused]] constexpr int n = reference_cell(kind).vertices,
+                                 d = reference_cell(kind).dimension;
+  const TriangleMesh& mesh = space.mesh();
+  const Element& element = space.element();
+  const Quadrature& rule = strain_quadrature(element);
+  const auto derivatives = derivatives_at<kind>(element, rule);
+  if constexpr (reference_cell(kind).simplex)
+    if (element.degree() == 1) {  // one point, matrices of a fixed size
+      const Eigen::Matrix<double, n, n> derivative = derivatives[0];
+      return assemble_cells(space, [&](int t) {
+        const auto here = CellMap<kind>(mesh, t).at(CellMap<kind>::Coordinates::Zero());
+        const Eigen::Matrix<double, n, d> gradient = derivative * here.gradient;
+        Eigen::Matrix<double, n, n> matrix = Eigen::Matrix<double, n, n>::Zero();
+        add_squares(matrix, here.factor, of_triangle[t], gradient);
+        return matrix;
+      });
+    }
+  return assemble_cells(space, [&](int t) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(element.dofs(), element.dofs());
+    at_rule_points<kind>(
+        mesh, t, rule, [&](Eigen::Index q, double factor, const auto& coordinates) {
+          const Eigen::Matrix<double, Eigen::Dynamic, d> gradient = derivatives[q] * coordinates;
+          add_squares(matrix, rule.weights(q) * factor, of_triangle[t], gradient);
+        });
+    return matrix;
+  });
+}
+
+template <CellKind kind>
+WeightedFactoredForm gradient_rows_on(const Space& space,
+                                      const std::vector<Stiffness>& of_triangle) {
+  const TriangleMesh& mesh = space.mesh();
+  const Quadrature& rule = strain_quadrature(space.element());
+  const auto derivatives = derivatives_at<kind>(space.element(), rule);
+  FactoredFormBuilder rows;
+  std::vector<double> moduli;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    at_rule_points<kind>(
+        mesh, t, rule, [&](Eigen::Index q, double factor, const auto& coordinates) {
+          for (int axis = 0; axis < mesh.dimension(); ++axis) {
+            const double modulus = axis < mesh.vertical() ? of_triangle[t].x : of_triangle[t].y;
+            if (!(modulus > 0)) continue;
+            rows.add(t, rule.weights(q) * factor);
+            moduli.push_back(modulus);
+            const Eigen::VectorXd derivative = derivatives[q] * coordinates.col(axis);
+            for (Eigen::Index i = 0; i < derivative.size(); ++i)
+              rows.put(space.cell_dofs()(t, i), derivative(i));
+          }
+        });
+  return {rows.form(space.size()),
+          Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
+}
+
+template <CellKind kind>
+FactoredForm layer_strain_on(const Space& space,
+                             const std::function<Eigen::Vector2d(int)>& direction) {
+  using Coordinates = typename CellMap<kind>::Coordinates;
+  const TriangleMesh& mesh = space.mesh();
+  const Element& element = space.element();
+  const Quadrature& rule = strain_quadrature(element);
+  const auto points = rule.weights.size();
+  const auto derivatives = derivatives_at<kind>(element, rule);
+  Eigen::VectorXd across(element.dofs());
+  FactoredForm strain;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::layer) strain.cell.insert(strain.cell.end(), points, t);
+  const auto rows = static_cast<Eigen::Index>(strain.cell.size());
+  strain.m.resize(rows);
+  strain.b.resize(rows, space.size());
+  strain.b.reserve(Eigen::VectorXi::Constant(rows, element.dofs()));
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const int t = strain.cell[r];
+    const Eigen::Index q = r % points;
+    const auto here = CellMap<kind>(mesh, t).at(rule.points.row(q).transpose());
+    strain.m(r) = rule.weights(q) * here.factor;
+    Coordinates slope = here.gradient.col(mesh.vertical());
+    if constexpr (CellMap<kind>::d == 2)
+      if (direction) slope = here.gradient * direction(t);
+    across.noalias() = derivatives[q] * slope;
+    for (Eigen::Index i = 0; i < across.size(); ++i)
+      strain.b.insert(r, space.cell_dofs()(t, i)) = across(i);
+  }
+  strain.b.makeCompressed();
+  return strain;
+}
+
+template <CellKind kind>
+Eigen::VectorXd load_vector_on(const Space& space, const Field& f, Region region) {
+  constexpr int n = reference_cell(kind).vertices, d = reference_cell(kind).dimension;
+  const TriangleMesh& mesh = space.mesh();
+  const Quadrature& rule = load_rule(space.element());
+  const Eigen::Index count = rule.weights.size();
+  Eigen::Matrix<double, n, Eigen::Dynamic> shape(n, count);  // N_i at the points
+  Eigen::MatrixXd weighted(space.element().dofs(),
+                           count);  // the basis at the points, times their weights
+  for (Eigen::Index q = 0; q < count; ++q) {
+    shape.col(q) = vertex_functions<kind>(rule.points.row(q).transpose());
+    weighted.col(q) = rule.weights(q) * space.element().basis(rule.points.row(q));
+  }
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size()), values(count), local(weighted.rows());
+  Eigen::Matrix<double, d, Eigen::Dynamic, Eigen::RowMajor> x(d, count);
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] != region) continue;
+    const CellMap<kind> map(mesh, t);
+    x = map.corners().lazyProduct(shape);
+    for (Eigen::Index q = 0; q < count; ++q) {
+      if constexpr (d == 3)
+        values(q) = f(x(0, q), x(1, q), x(2, q));
+      else
+        values(q) = f(x(0, q), x(1, q));
+      if (!std::isfinite(values(q))) {
+        const Eigen::VectorXd at = x.col(q);
+        throw Error(fmt::format("load: f({:.6g}) is not finite",
+                                fmt::join(at.data(), at.data() + d, ", ")));
+      }
+      if constexpr (!reference_cell(kind).simplex)
+        values(q) *= map.at(rule.points.row(q).transpose()).factor;
+    }
+    const double measure = reference_cell(kind).simplex ? mesh.measure(t) : 1;
+    local.noalias() = measure * weighted.lazyProduct(values);
+    for (Eigen::Index i = 0; i < local.size(); ++i) load(space.cell_dofs()(t, i)) += local(i);
+  }
+  return load;
 }
 
 }  // namespace
 
 double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle) {
   if (!of_body) return 1;
-  const Eigen::Vector2d x = point_in(mesh, triangle, Eigen::Vector3d::Constant(1.0 / 3));
-  const double factor = of_body(x(0), x(1));
+  const Eigen::Vector3d x = centroid(mesh, triangle);
+  const double factor = of_body(x(0), x(1), x(2));
   if (!(factor > 0 && std::isfinite(factor)))
-    throw Error(fmt::format("stiffness({:.6g}, {:.6g}) = {}; accepted: a positive number", x(0),
-                            x(1), factor));
+    throw Error(fmt::format("stiffness({:.6g}) = {}; accepted: a positive number",
+                            fmt::join(x.data(), x.data() + mesh.dimension(), ", "), factor));
   return factor;
 }
 
 const Quadrature& strain_quadrature(const Element& element) {
-  return triangle_rule(2 * (element.degree() - 1));
+  // on a square the derivative by s is of degree k in t
+  const bool simplex = reference_cell(element.kind()).simplex;
+  return cell_rule(element.kind(), 2 * (simplex ? element.degree() - 1 : element.degree()));
 }
 
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body,
@@ -50,89 +211,23 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& b
 
 Eigen::SparseMatrix<double> gradient_form(const Space& space,
                                           const std::vector<Stiffness>& of_triangle) {
-  const TriangleMesh& mesh = space.mesh();
-  const Element& element = space.element();
-  const Quadrature& rule = strain_quadrature(element);
-  const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(element, rule);
-  const auto add = [](auto& matrix, double weight, const Stiffness& stiffness,
-                      const auto& gradient) {
-    matrix += weight * stiffness.x * gradient.col(0) * gradient.col(0).transpose() +
-              weight * stiffness.y * gradient.col(1) * gradient.col(1).transpose();
-  };
-  if (element.degree() == 1) {  // one point, matrices of a fixed size
-    const Eigen::Matrix3d derivative = derivatives[0];
-    return assemble_cells(space, [&](int t) {
-      const Eigen::Matrix<double, 3, 2> gradient = derivative * barycentric_gradients(mesh, t);
-      Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-      add(matrix, mesh.area(t), of_triangle[t], gradient);
-      return matrix;
-    });
-  }
-  return assemble_cells(space, [&](int t) {
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(element.dofs(), element.dofs());
-    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-      add(matrix, rule.weights(q) * mesh.area(t), of_triangle[t],
-          Eigen::MatrixX2d(derivatives[q] * lambda));
-    return matrix;
-  });
+  return with_kind(space.mesh().kind,
+                   [&]<CellKind kind>() { return gradient_form_on<kind>(space, of_triangle); });
 }
 
 WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle) {
-  const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = strain_quadrature(space.element());
-  const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(space.element(), rule);
-  FactoredFormBuilder rows;
-  std::vector<double> moduli;
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-      for (int axis = 0; axis < 2; ++axis) {
-        const double modulus = axis == 0 ? of_triangle[t].x : of_triangle[t].y;
-        if (!(modulus > 0)) continue;
-        rows.add(t, rule.weights(q) * mesh.area(t));
-        moduli.push_back(modulus);
-        const Eigen::VectorXd derivative = derivatives[q] * lambda.col(axis);
-        for (Eigen::Index i = 0; i < derivative.size(); ++i)
-          rows.put(space.cell_dofs()(t, i), derivative(i));
-      }
-  }
-  return {rows.form(space.size()),
-          Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
+  return with_kind(space.mesh().kind,
+                   [&]<CellKind kind>() { return gradient_rows_on<kind>(space, of_triangle); });
 }
 
 FactoredForm layer_strain(const Space& space,
                           const std::function<Eigen::Vector2d(int)>& direction) {
-  const TriangleMesh& mesh = space.mesh();
-  const Element& element = space.element();
-  const Quadrature& rule = strain_quadrature(element);
-  const auto points = rule.weights.size();
-  const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(element, rule);
-  Eigen::VectorXd dy(element.dofs());
-  FactoredForm strain;
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == Region::layer) strain.cell.insert(strain.cell.end(), points, t);
-  const auto rows = static_cast<Eigen::Index>(strain.cell.size());
-  strain.m.resize(rows);
-  strain.b.resize(rows, space.size());
-  strain.b.reserve(Eigen::VectorXi::Constant(rows, element.dofs()));
-  for (Eigen::Index r = 0; r < rows; ++r) {
-    const int t = strain.cell[r];
-    const Eigen::Index q = r % points;
-    strain.m(r) = rule.weights(q) * mesh.area(t);
-    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
-    const Eigen::Vector3d slope =
-        direction ? Eigen::Vector3d(lambda * direction(t)) : Eigen::Vector3d(lambda.col(1));
-    dy.noalias() = derivatives[q] * slope;
-    for (Eigen::Index i = 0; i < dy.size(); ++i)
-      strain.b.insert(r, space.cell_dofs()(t, i)) = dy(i);
-  }
-  strain.b.makeCompressed();
-  return strain;
+  return with_kind(space.mesh().kind,
+                   [&]<CellKind kind>() { return layer_strain_on<kind>(space, direction); });
 }
 
 const Quadrature& load_rule(const Element& element) {
-  return triangle_rule(std::max(5, 2 * element.degree()));
+  return cell_rule(element.kind(), std::max(5, 2 * element.degree()));
 }
 
 Eigen::VectorXd mean_load_vector(const Space& space, const Field& f, Region region,
@@ -158,30 +253,8 @@ Eigen::VectorXd mean_load_vector(const Space& space, const Field& f, Region regi
 }
 
 Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region) {
-  const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = load_rule(space.element());
-  const Eigen::Matrix3Xd points = rule.points.transpose();
-  Eigen::MatrixXd weighted(space.element().dofs(),
-                           points.cols());  // the basis at the points, times their weights
-  for (Eigen::Index q = 0; q < points.cols(); ++q)
-    weighted.col(q) = rule.weights(q) * space.element().basis(points.col(q));
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size()), values(points.cols()),
-                  local(weighted.rows());
-  Eigen::Matrix<double, 2, 3> corners;
-  Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor> x(2, points.cols());
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh.region[t] != region) continue;
-    for (int i = 0; i < 3; ++i) corners.col(i) = mesh.vertices.row(mesh.triangles(t, i));
-    x = corners.lazyProduct(points);
-    for (Eigen::Index q = 0; q < values.size(); ++q) {
-      values(q) = f(x(0, q), x(1, q));
-      if (!std::isfinite(values(q)))
-        throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0, q), x(1, q)));
-    }
-    local.noalias() = mesh.area(t) * weighted.lazyProduct(values);
-    for (Eigen::Index i = 0; i < local.size(); ++i) load(space.cell_dofs()(t, i)) += local(i);
-  }
-  return load;
+  return with_kind(space.mesh().kind,
+                   [&]<CellKind kind>() { return load_vector_on<kind>(space, f, region); });
 }
 
 }  // namespace antilock

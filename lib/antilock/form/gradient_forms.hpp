@@ -11,7 +11,8 @@
 namespace antilock {
 
 /// The stiffness of a region: the form is int k_x (d_x u) (d_x v) + k_y (d_y u) (d_y v), where k_x
-/// is the member x, and k_y the member y.
+/// is the member x, and k_y the member y. In space the layer has two directions. There the form is
+/// int k_x (d_x u d_x v + d_y u d_y v) + k_y d_z u d_z v.
 struct Stiffness {
   double x = 1, y = 1;
 };
@@ -32,10 +33,11 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space,
 /// strain_quadrature; those of stiffness 0 are left out.
 WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle);
 
-/// Returns the factored form of a_y^-(u, v) = (B u, M B v) of (23). A row of B is d_y at a
-/// quadrature point of a layer triangle, and M holds the weight of the point times the area. For P1
-/// and CR d_y u is constant on a triangle, so there is one row per triangle. `direction`, if not
-/// empty, returns the direction that replaces y on a triangle.
+/// Returns the factored form of a_y^-(u, v) = (B u, M B v) of (23). A row of B is d_y, in space
+/// d_z, at a quadrature point of a layer triangle, and M holds the weight of the point times the
+/// area. For P1 and CR d_y u is constant on a triangle, so there is one row per triangle.
+/// `direction`, if not empty, returns the direction that replaces y on a triangle. It is used in
+/// the plane alone.
 FactoredForm layer_strain(const Space& space,
                           const std::function<Eigen::Vector2d(int triangle)>& direction = {});
 /// Returns the quadrature rule of these rows. For an element of degree k, d/dy u_h has degree k - 1

@@ -50,7 +50,7 @@ std::array<LinearFunction, 2> trace(const Space& space, int t, int edge) {
   };
   const Eigen::VectorXd difference =
       at_vertex(mesh.edges(edge, 1)) - at_vertex(mesh.edges(edge, 0));
-  return {on_triangle(space, t, means_on_edge(space.element(), local_edge(mesh, t, edge))),
+  return {on_triangle(space, t, means_on_facet(space.element(), local_edge(mesh, t, edge))),
           on_triangle(space, t, difference)};
 }
 
@@ -80,6 +80,7 @@ WeightedJump weighted_jump(const Space& space, int t, int k, int axis) {
 
 void check_method(const Space& space, const InteriorPenalty& method) {
   const Element& element = space.element();
+  require_triangles(space.mesh(), "interior penalty");
   if (element.degree() != 1 || element.dofs_per_cell() != element.dofs())
     throw Error("interior penalty: element " + element.name() +
                 " is not accepted; P1dc (discontinuous_p1)");
@@ -115,8 +116,9 @@ FactoredForm interior_penalty_form(const Space& space, Region region, int axis,
       add(sum, 1, jumps[k].mean);
     }
     const Eigen::Vector3d centroid = Eigen::Vector3d::Constant(1.0 / 3);
-    LinearFunction derivative = on_triangle(
-        space, t, space.element().derivative(centroid) * barycentric_gradients(mesh, t).col(axis));
+    const Eigen::MatrixX3d basis_derivative = space.element().derivative(centroid);
+    LinearFunction derivative =
+        on_triangle(space, t, basis_derivative * barycentric_gradients(mesh, t).col(axis));
     add(derivative, -1, sum);
     put_row(rows, mesh, t, derivative);
     if (sum.empty()) continue;

@@ -18,9 +18,9 @@ Eigen::RowVector2d tangent(const TriangleMesh& mesh, int e) {
 /// Both components of grad w - theta, theta averaged with a rule.
 void add_strain(FactoredFormBuilder& rows, const PlateSpace& space, int t, const Quadrature& rule,
                 double weight) {
-  const Eigen::MatrixX2d slope =
-      space.deflection.element().derivative(Eigen::Vector3d::Constant(1.0 / 3)) *
-      barycentric_gradients(space.mesh(), t);
+  const Eigen::MatrixX3d derivative =
+      space.deflection.element().derivative(Eigen::Vector3d::Constant(1.0 / 3));
+  const Eigen::MatrixX2d slope = derivative * barycentric_gradients(space.mesh(), t);
   const Space& rotation = space.rotation.x;
   Eigen::VectorXd mean =
       Eigen::VectorXd::Zero(rotation.element().dofs());  // of the basis of the rotation
@@ -85,6 +85,7 @@ void check_elements(const PlateSpace& space) {
 }  // namespace
 
 SparseMatrix bending_form(const PlateSpace& space, double poisson) {
+  require_triangles(space.mesh(), "bending form");
   check_elements(space);
   const TriangleMesh& mesh = space.mesh();
   // the bubbles 6 lambda_j lambda_k of the edges are rotations, too
@@ -119,6 +120,7 @@ SparseMatrix bending_form(const PlateSpace& space, double poisson) {
 }
 
 FactoredForm shear_form(const PlateSpace& space) {
+  require_triangles(space.mesh(), "shear form");
   check_elements(space);
   const TriangleMesh& mesh = space.mesh();
   FactoredFormBuilder rows;

@@ -2,6 +2,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "antilock/form/factored_form.hpp"
@@ -43,11 +45,11 @@ class FactoredFormBuilder {
   std::vector<int> cell_;
 };
 
-/// Returns the column pointers (N + 1) of the compressed matrix of a space: the position at which
-/// each column begins, and the one at which the last column ends. The rows of a column are the
-/// unknowns that share a triangle with its unknown. Their number follows from the numbers of
-/// vertices, edges and triangles around this unknown.
-inline std::vector<int> column_pointers(const Space& space) {
+/// Returns the column pointers (N + 1) of the compressed matrix of a space of triangles: the
+/// position at which each column begins, and the one at which the last column ends. The rows of a
+/// column are the unknowns that share a triangle with its unknown. Their number follows from the
+/// numbers of vertices, edges and triangles around this unknown.
+inline std::vector<int> column_pointers_of_triangles(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const int v = space.element().dofs_per_vertex(), e = space.element().dofs_per_edge(),
             t = space.element().dofs_per_cell();
@@ -67,9 +69,33 @@ inline std::vector<int> column_pointers(const Space& space) {
   return start;
 }
 
+/// Returns the column pointers (N + 1) of the compressed matrix of a space: the position at which
+/// each column begins, and the one at which the last column ends. The rows of a column are the
+/// unknowns that share a cell with its unknown. They are visited cell by cell, and counted at their
+/// first visit. On triangles they need not be visited, because the edges tell the neighbours.
+inline std::vector<int> column_pointers(const Space& space) {
+  if (space.mesh().kind == CellKind::triangle) return column_pointers_of_triangles(space);
+  const auto& unknowns = space.cell_dofs();
+  std::vector<int> first(space.size() + 1, 0), cells(unknowns.size());  // the cells of each unknown
+  for (const int unknown : unknowns.reshaped<Eigen::RowMajor>()) ++first[unknown + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> next(first.begin(), first.end() - 1), seen(space.size(), -1), start{0};
+  for (Eigen::Index t = 0; t < unknowns.rows(); ++t)
+    for (const int unknown : unknowns.row(t)) cells[next[unknown]++] = static_cast<int>(t);
+  start.reserve(space.size() + 1);
+  for (int column = 0; column < space.size(); ++column) {
+    int rows = 0;
+    for (int k = first[column]; k < first[column + 1]; ++k)
+      for (const int row : unknowns.row(cells[k]))
+        if (std::exchange(seen[row], column) != column) ++rows;
+    start.push_back(start.back() + rows);
+  }
+  return start;
+}
+
 /// Assembles element matrices into a sparse matrix (N x N), in linear time: column_pointers gives
 /// the number of entries of each column, and each element adds its entries in place. `local(t)`
-/// returns the m x m matrix of triangle t.
+/// returns the m x m matrix of cell t.
 template <class LocalMatrix>
 Eigen::SparseMatrix<double> assemble_cells(const Space& space, LocalMatrix&& local) {
   const auto& unknowns = space.cell_dofs();

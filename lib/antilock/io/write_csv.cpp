@@ -41,17 +41,21 @@ void write_solution_csv(const std::filesystem::path& path, const Space& space,
     throw Error(
         fmt::format("{}: u must be {} finite values, one an unknown; it has {}, {} of them finite",
                     path.string(), space.size(), u.size(), u.array().isFinite().count()));
+  std::vector<std::string> header{"x", "y"};
+  if (space.mesh().dimension() == 3) header.emplace_back("z");
+  const auto write = [&](const std::vector<std::string>& names, const Eigen::MatrixXd& values) {
+    header.insert(header.end(), names.begin(), names.end());
+    Eigen::MatrixXd rows(space.size(), static_cast<Eigen::Index>(header.size()));
+    rows << space.dof_coordinates(), values;
+    write_csv(path, header, rows);
+  };
   if (!space.element().nodal()) {
-    Eigen::MatrixXd rows(space.size(), 4);
-    rows << space.dof_coordinates(), values_at_dofs(space, u), u;
-    return write_csv(path, {"x", "y", "u", "mean"}, rows);
+    Eigen::MatrixXd values(space.size(), 2);
+    values << values_at_dofs(space, u), u;
+    return write({"u", "mean"}, values);
   }
-  const Eigen::Index components = u.size() / space.size();
-  Eigen::MatrixXd rows(space.size(), 2 + components);
-  rows << space.dof_coordinates(), u.reshaped(space.size(), components);
-  std::vector<std::string> header{"x", "y", "u"};
-  if (components == 2) header = {"x", "y", "u_x", "u_y"};
-  write_csv(path, header, rows);
+  if (two_components) return write({"u_x", "u_y"}, u.reshaped(space.size(), 2));
+  write({"u"}, u);
 }
 
 }  // namespace antilock

@@ -12,11 +12,12 @@
 namespace antilock {
 
 void write_freefem_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  require_triangles(mesh, path.c_str());
   const auto edges = labelled_edges(mesh);
   std::vector<int> vertex_label(mesh.vertex_count(),
                                 0);  // a corner takes the larger of its two labels; none reads it
-  for (const auto& [from, to, label] : edges)
-    for (const int v : {from, to}) vertex_label[v] = std::max(vertex_label[v], label);
+  for (const auto& [ends, label] : edges)
+    for (const int v : {ends[0], ends[1]}) vertex_label[v] = std::max(vertex_label[v], label);
   write_file(path, [&](std::ostream& out) {
     Text text(out);
     text.print("{} {} {}\n", mesh.vertex_count(), mesh.triangle_count(), edges.size());
@@ -26,7 +27,8 @@ void write_freefem_mesh(const std::filesystem::path& path, const TriangleMesh& m
     for (int t = 0; t < mesh.triangle_count(); ++t)
       text.print(FMT_COMPILE("{} {} {} {}\n"), mesh.triangles(t, 0) + 1, mesh.triangles(t, 1) + 1,
                  mesh.triangles(t, 2) + 1, static_cast<int>(mesh.region[t]));
-    for (const auto& [from, to, label] : edges) text.print("{} {} {}\n", from + 1, to + 1, label);
+    for (const auto& [ends, label] : edges)
+      text.print("{} {} {}\n", ends[0] + 1, ends[1] + 1, label);
   });
 }
 

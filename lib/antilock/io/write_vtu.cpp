@@ -25,10 +25,11 @@ struct Array {
   bool integers = false;  ///< written as Int32
 };
 
-/// Triangles in the plane, with values at the points and on the triangles.
+/// Cells of one kind, with values at the points and on the cells.
 struct Grid {
+  CellKind kind;
   Points points;
-  Triples triangles;
+  IndexRows cells;
   std::vector<Array> point_data = {},
                      cell_data = {};  ///< the first of each is the one that a viewer shows
   bool regions = false;               ///< with names for the numbers in the cell data `region`
@@ -89,41 +90,49 @@ const char* const region_names =
     "</FieldData>\n";
 static_assert(static_cast<int>(Region::body) == 1 && static_cast<int>(Region::layer) == 2);
 
+/// VTK's number of a kind of cells.
+std::uint8_t vtk_type(CellKind kind) {
+  if (kind == CellKind::triangle) return 5;
+  return kind == CellKind::quadrilateral ? 9 : 10;
+}
+
 void write(const std::filesystem::path& path, const Grid& grid) {
-  constexpr std::uint8_t vtk_triangle = 5;
-  const auto points = grid.points.rows(), triangles = grid.triangles.rows();
+  const ReferenceCell& cell = reference_cell(grid.kind);
+  const auto points = grid.points.rows(), cells = grid.cells.rows();
   std::vector<double> in_space(3 * points, 0.0);
   for (Eigen::Index i = 0; i < points; ++i)
-    for (int k = 0; k < 2; ++k) in_space[3 * i + k] = grid.points(i, k);
-  const std::vector<std::int32_t> corners(grid.triangles.data(),
-                                          grid.triangles.data() + grid.triangles.size());
-  std::vector<std::int32_t> ends(triangles);
-  for (Eigen::Index t = 0; t < triangles; ++t) ends[t] = static_cast<std::int32_t>(3 * (t + 1));
+    for (int k = 0; k < cell.dimension; ++k) in_space[3 * i + k] = grid.points(i, k);
+  const std::vector<std::int32_t> corners(grid.cells.data(), grid.cells.data() + grid.cells.size());
+  std::vector<std::int32_t> ends(cells);
+  for (Eigen::Index t = 0; t < cells; ++t)
+    ends[t] = static_cast<std::int32_t>(cell.vertices * (t + 1));
 
   write_file(path, [&](std::ostream& out) {
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
            "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
     if (grid.regions) out << region_names;
-    out << fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points, triangles);
+    out << fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points, cells);
     out << data_section("PointData", grid.point_data) << data_section("CellData", grid.cell_data);
     out << "<Points>\n" << data_array("Float64", "points", 3, in_space) << "</Points>\n<Cells>\n";
     out << data_array("Int32", "connectivity", 1, corners)
         << data_array("Int32", "offsets", 1, ends)
-        << data_array("UInt8", "types", 1, std::vector<std::uint8_t>(triangles, vtk_triangle));
+        << data_array("UInt8", "types", 1, std::vector<std::uint8_t>(cells, vtk_type(grid.kind)));
     out << "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   });
 }
 
-/// Three points per triangle, so that a field that jumps from triangle to triangle can; or the
-/// vertices of the mesh.
+/// The vertices of the mesh, or points of its own for each cell, so that a field can jump between
+/// cells.
 Grid grid_of(const TriangleMesh& mesh, bool shared) {
   const Points vertices = mesh.curved() ? drawn_along_normals(mesh) : mesh.vertices;
-  if (shared) return {vertices, mesh.triangles};
-  Grid grid{Points(3 * mesh.triangle_count(), 2), Triples(mesh.triangle_count(), 3)};
+  if (shared) return {mesh.kind, vertices, mesh.triangles};
+  const int n = mesh.reference().vertices;
+  Grid grid{mesh.kind, Points(n * mesh.triangle_count(), mesh.dimension()),
+            IndexRows(mesh.triangle_count(), n)};
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      grid.points.row(3 * t + i) = vertices.row(mesh.triangles(t, i));
-      grid.triangles(t, i) = 3 * t + i;
+    for (int i = 0; i < n; ++i) {
+      grid.points.row(n * t + i) = vertices.row(mesh.triangles(t, i));
+      grid.cells(t, i) = n * t + i;
     }
   return grid;
 }
@@ -135,36 +144,39 @@ void add_regions(Grid& grid, const TriangleMesh& mesh) {
   grid.regions = true;
 }
 
-/// The values of u at the corners of the triangles (for CR they are m_j + m_k - m_i).
+/// The values of u at the corners of the cells (for CR in the plane they are m_j + m_k - m_i).
 Eigen::VectorXd corner_values(const Space& space, const Eigen::VectorXd& u) {
   const Element& element = space.element();
-  Eigen::MatrixXd basis(3, element.dofs());  // a row per corner
-  for (int i = 0; i < 3; ++i) basis.row(i) = element.basis(Eigen::Vector3d::Unit(i)).transpose();
-  Eigen::VectorXd values(3 * space.mesh().triangle_count());
+  const int n = space.mesh().reference().vertices;
+  Eigen::MatrixXd basis(n, element.dofs());  // a row per corner
+  for (int i = 0; i < n; ++i)
+    basis.row(i) = element.basis(reference_vertex(element.kind(), i)).transpose();
+  Eigen::VectorXd values(n * space.mesh().triangle_count());
   for (int t = 0; t < space.mesh().triangle_count(); ++t) {
     const Eigen::VectorXi unknowns = space.cell_dofs().row(t);
-    values.segment<3>(3 * t) = basis * u(unknowns);
+    values.segment(n * t, n) = basis * u(unknowns);
   }
   return values;
 }
 
-/// The contact pressure at the points of the grid: at a vertex its own, on a Crouzeix-Raviart edge
-/// that of the edge, and at the ends of an edge of hybrid_bdm1 those of its two unknowns.
+/// The contact pressure at the points of the grid: at a vertex its own, on a Crouzeix-Raviart facet
+/// that of the facet, and at the ends of an edge of hybrid_bdm1 those of its two unknowns.
 Eigen::VectorXd point_pressure(const Space& space, const Eigen::VectorXd& pressure, bool shared) {
   const TriangleMesh& mesh = space.mesh();
   Eigen::VectorXd of_unknown = Eigen::VectorXd::Zero(space.size());
   of_unknown(space.contact_dofs()) = pressure;
   if (shared) return of_unknown.head(mesh.vertex_count());
+  const ReferenceCell& cell = mesh.reference();
   Eigen::VectorXd values =
-      Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.triangle_count()));
-  const int per_edge = space.element().dofs_per_edge();  // 1 or 2
-  for (int edge = 0; edge < mesh.edge_count(); ++edge) {
-    if (mesh.edge_tag[edge] != EdgeTag::contact) continue;
-    const int triangle = mesh.edge_triangles(edge, 0);
-    const int i = local_edge(mesh, triangle, edge);
-    const auto unknowns = space.cell_dofs().row(triangle).segment(per_edge * i, per_edge);
-    values(3 * triangle + (i + 1) % 3) = of_unknown(unknowns(0));
-    values(3 * triangle + (i + 2) % 3) = of_unknown(unknowns(per_edge - 1));
+      Eigen::VectorXd::Zero(cell.vertices * static_cast<Eigen::Index>(mesh.triangle_count()));
+  const int per_facet = space.element().dofs_per_facet();  // 1, or 2 on an edge
+  for (int facet = 0; facet < mesh.edge_count(); ++facet) {
+    if (mesh.edge_tag[facet] != EdgeTag::contact) continue;
+    const int t = mesh.edge_triangles(facet, 0);
+    const int i = local_edge(mesh, t, facet);
+    const auto dofs = space.cell_dofs().row(t).segment(per_facet * i, per_facet);
+    for (int k = 0; k < cell.dimension; ++k)
+      values(cell.vertices * t + cell.facet[i][k]) = of_unknown(dofs(std::min(k, per_facet - 1)));
   }
   return values;
 }
@@ -201,6 +213,7 @@ void write_vtu(const std::filesystem::path& path, const Space& space, const Eige
 
 void write_vtu(const std::filesystem::path& path, const TriangleMesh& mesh,
                const Eigen::MatrixX3d& corners) {
+  require_triangles(mesh, "VTU of corner values");
   const Eigen::VectorXd values = corners.transpose().reshaped();
   check_values(path, "u", "per corner", values, 3 * mesh.triangle_count());
   Grid grid = grid_of(mesh, false);

@@ -7,6 +7,7 @@
 namespace antilock {
 
 std::vector<ContactEdge> contact_edges(const TriangleMesh& mesh) {
+  require_triangles(mesh, "contact edges");
   std::vector<ContactEdge> edges;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;

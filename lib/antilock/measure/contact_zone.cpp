@@ -80,24 +80,33 @@ ContactForce contact_force(const Result& result) {
 }
 
 Eigen::VectorXd contact_lengths(const Space& space) {
-  // int phi_i over the edge: shared by its unknowns as the element's basis says (midpoint: 1; ends:
-  // 1/2 each)
+  const TriangleMesh& mesh = space.mesh();
+  const Element& element = space.element();
+  if (mesh.dimension() == 3 && element.degree() > 1)
+    throw Error("contact lengths: the element " + element.name() +
+                " on faces; accepted: P1 and CR");
+  // int phi_i over the facet: shared by its unknowns as the element's basis says (midpoint: 1;
+  // ends: 1/2 each)
   Eigen::VectorXd length = Eigen::VectorXd::Zero(space.size());
-  for (const ContactEdge& edge : contact_edges(space.mesh()))
-    length(space.cell_dofs().row(edge.triangle)) +=
-        edge.length * means_on_edge(space.element(), edge.opposite);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    const int t = mesh.edge_triangles(e, 0);
+    length(space.cell_dofs().row(t)) +=
+        mesh.facet_measure(e) * means_on_facet(element, local_edge(mesh, t, e));
+  }
   return length(space.contact_dofs());
 }
 
-Eigen::MatrixX3d contact_table(const Result& result) {
+Eigen::MatrixXd contact_table(const Result& result) {
   require_space_of_bounds(result, "contact table");
   const Space& space = result.space;
   const std::vector<int>& places = space.contact_dofs();
   const auto count = static_cast<Eigen::Index>(places.size());
-  Eigen::MatrixX3d table(count, 3);
-  table.col(0) = space.dof_coordinates().col(0)(places);
-  table.col(1) = distance_to_bound(result.problem.bounds, result.solution.u);
-  table.col(2) = result.solution.lambda.cwiseQuotient(contact_lengths(space));
+  const int along = space.mesh().vertical();  // 1 or 2 coordinates
+  Eigen::MatrixXd table(count, along + 2);
+  for (int k = 0; k < along; ++k) table.col(k) = space.dof_coordinates().col(k)(places);
+  table.col(along) = distance_to_bound(result.problem.bounds, result.solution.u);
+  table.col(along + 1) = result.solution.lambda.cwiseQuotient(contact_lengths(space));
   return table;
 }
 

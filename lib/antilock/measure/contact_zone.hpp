@@ -52,12 +52,14 @@ ContactForce contact_force(const Result& result);
 
 /// Returns the length of Gamma_C that belongs to each contact unknown: the length of its edge for
 /// CR, and half of the lengths of its two edges for P1. lambda divided by it is the contact
-/// pressure as a density (force per length).
+/// pressure as a density (force per length). In space it is an area: that of its face for CR, and a
+/// third of the areas of its faces for P1. Throws Error for P2 in space: its functions of vertices
+/// have mean 0 on a face, so that their forces are no pressures.
 Eigen::VectorXd contact_lengths(const Space& space);
 
-/// Returns a row per contact unknown (C x 3): x, the distance to the nearer bound, and the contact
-/// pressure (a density), >= 0 at a lower bound and <= 0 at an upper one. Throws Error as
-/// contact_zone does.
-Eigen::MatrixX3d contact_table(const Result& result);
+/// Returns a row per contact unknown (C x 3, in space C x 4): x, in space also y, the distance to
+/// the nearer bound, and the contact pressure (a density), >= 0 at a lower bound and <= 0 at an
+/// upper one. Throws Error as contact_zone and contact_lengths do.
+Eigen::MatrixXd contact_table(const Result& result);
 
 }  // namespace antilock

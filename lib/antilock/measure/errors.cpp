@@ -10,33 +10,45 @@
 #include "antilock/exact/exact_table.hpp"
 #include "antilock/form/gradient_forms.hpp"
 #include "antilock/problem/bounds.hpp"
+#include "antilock/space/cell_map.hpp"
 
 namespace antilock {
 namespace {
 
-/// The lattice of order 4: corners, edge midpoints and quarters, three inner points.
-const std::vector<Eigen::Vector3d>& sample_points() {
-  static const std::vector<Eigen::Vector3d> points = [] {
-    std::vector<Eigen::Vector3d> p;
-    for (int i = 0; i <= 4; ++i)
-      for (int j = 0; i + j <= 4; ++j) p.emplace_back(i / 4.0, j / 4.0, (4 - i - j) / 4.0);
-    return p;
-  }();
+/// The lattice of order 4 of a simplex: corners, edge midpoints and quarters, inner points.
+std::vector<ReferencePoint> sample_points(CellKind kind) {
+  constexpr int order = 4;
+  const bool in_space = kind == CellKind::tetrahedron;
+  std::vector<ReferencePoint> points;
+  for (int i = 0; i <= order; ++i)
+    for (int j = 0; i + j <= order; ++j) {
+      const int rest = order - i - j;
+      if (!in_space) points.emplace_back(Eigen::Vector3d(i, j, rest) / order);
+      for (int k = 0; in_space && k <= rest; ++k)
+        points.emplace_back(Eigen::Vector4d(i, j, k, rest - k) / order);
+    }
   return points;
 }
 
-/// The monomials lambda_0^i lambda_1^j, i + j <= degree, at each point.
-Eigen::MatrixXd monomials(const Eigen::MatrixX3d& points, int degree) {
-  Eigen::MatrixXd values(points.rows(), (degree + 1) * (degree + 2) / 2);
-  Eigen::Index column = 0;
+/// The monomials lambda_0^i lambda_1^j, i + j <= degree, at each point; in space those of three
+/// coordinates.
+Eigen::MatrixXd monomials(const ReferencePoints& points, int degree) {
+  const int most = points.cols() == 4 ? degree : 0;  // exponent of lambda_2
+  std::vector<Eigen::ArrayXd> columns;
   for (int i = 0; i <= degree; ++i)
     for (int j = 0; i + j <= degree; ++j)
-      values.col(column++) = points.col(0).array().pow(i) * points.col(1).array().pow(j);
+      for (int k = 0; k <= std::min(most, degree - i - j); ++k) {
+        columns.emplace_back(points.col(0).array().pow(i) * points.col(1).array().pow(j));
+        if (k > 0) columns.back() *= points.col(2).array().pow(k);
+      }
+  Eigen::MatrixXd values(points.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t column = 0; column < columns.size(); ++column)
+    values.col(static_cast<Eigen::Index>(column)) = columns[column];
   return values;
 }
 
-/// p_h on a layer triangle is of degree k - 1: its values at `points`, from its rows of B.
-Eigen::MatrixXd layer_stress_values(const Element& element, const Eigen::MatrixX3d& points) {
+/// p_h on a layer cell is of degree k - 1: its values at `points`, from its rows of B.
+Eigen::MatrixXd layer_stress_values(const Element& element, const ReferencePoints& points) {
   const int degree = element.degree() - 1;
   const Eigen::MatrixXd at_rows = monomials(strain_quadrature(element).points, degree);
   return monomials(points, degree) * pseudo_inverse(at_rows);
@@ -60,11 +72,114 @@ void check_solution(const Space& space, const Solution& solution) {
                     solution.u.size(), solution.p.size(), space.size(), rows));
 }
 
+/// The reference at a point.
+template <int d>
+struct Known {
+  double value;
+  Eigen::Matrix<double, d, 1> gradient;
+  double layer_stress;
+};
+
+template <int d>
+Known<d> known_at(const Reference& reference, const Eigen::Matrix<double, d, 1>& x, bool in_layer) {
+  if constexpr (d == 2) {
+    const ExactPoint exact = reference.known(x, in_layer);
+    return {exact.value, exact.gradient, exact.layer_stress};
+  } else {
+    return {reference.value(x(0), x(1), x(2)), reference.gradient(x(0), x(1), x(2)),
+            in_layer ? reference.layer_stress(x(0), x(1), x(2)) : 0};
+  }
+}
+
+/// L-infinity at the samples of every cell.
+template <CellKind kind>
+double largest_error(const Space& space, const Solution& solution, const Reference& reference) {
+  constexpr int d = reference_cell(kind).dimension;
+  const std::vector<ReferencePoint> samples = sample_points(kind);
+  std::vector<Eigen::VectorXd> basis;
+  for (const ReferencePoint& lambda : samples) basis.push_back(space.element().basis(lambda));
+  double largest = 0;
+  Eigen::VectorXd u(space.cell_dofs().cols());
+  for (int t = 0; t < space.mesh().triangle_count(); ++t) {
+    u = solution.u(space.cell_dofs().row(t));
+    const CellMap<kind> map(space.mesh(), t);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const Eigen::Matrix<double, d, 1> x = map.point(samples[k]);
+      double exact = 0;
+      if constexpr (d == 2)
+        exact = reference.value(x(0), x(1));
+      else
+        exact = reference.value(x(0), x(1), x(2));
+      largest = larger(largest, std::abs(u.dot(basis[k]) - exact));
+    }
+  }
+  return largest;
+}
+
+/// The errors in L2, H1 and the energy norm.
+template <CellKind kind>
+void add_errors_on_cells(Errors& errors, const Space& space, const Solution& solution,
+                         double epsilon, const Reference& reference) {
+  constexpr int n = reference_cell(kind).vertices, d = reference_cell(kind).dimension;
+  using Vector = Eigen::Matrix<double, d, 1>;
+  const TriangleMesh& mesh = space.mesh();
+  const Element& element = space.element();
+  const Quadrature& rule = load_rule(element);
+  const Eigen::Index points = rule.weights.size();
+  std::vector<Eigen::VectorXd> basis;
+  std::vector<Eigen::Matrix<double, Eigen::Dynamic, n>> derivative;
+  for (Eigen::Index q = 0; q < points; ++q) {
+    basis.push_back(element.basis(rule.points.row(q)));
+    derivative.push_back(element.derivative(rule.points.row(q)));
+  }
+
+  double l2 = 0, gradient2 = 0;
+  errors.by_triangle.setZero(mesh.triangle_count());
+  Eigen::Index row = 0;
+  const Eigen::MatrixXd stress = layer_stress_values(element, rule.points);
+  Eigen::VectorXd u(space.cell_dofs().cols());
+  Eigen::Matrix<double, Eigen::Dynamic, d> slopes(
+      u.size(), d);  // of the basis; here, since both would be allocated per cell and point
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    u = solution.u(space.cell_dofs().row(t));
+    const CellMap<kind> map(mesh, t);
+    const auto here = map.at(CellMap<kind>::Coordinates::Zero());  // the same at every point
+    double& energy2 = errors.by_triangle(t);
+    const bool in_layer = mesh.region[t] == Region::layer;
+    const bool stiff = in_layer && solution.p.size() > 0;
+    for (Eigen::Index q = 0; q < points; ++q) {
+      const Vector x = map.point(rule.points.row(q).transpose());
+      const double weight = rule.weights(q) * here.factor;
+      const Known<d> exact = known_at<d>(reference, x, stiff);
+      const double e = u.dot(basis[q]) - exact.value;
+      slopes.noalias() = derivative[q] * here.gradient;
+      const Vector de = slopes.transpose() * u - exact.gradient;
+      l2 += weight * e * e;
+      gradient2 += weight * de.squaredNorm();
+      if (stiff) {
+        // epsilon^-2 (d/dy e)^2 = epsilon^2 (p_h - p)^2, which also holds at epsilon = 0
+        const double dp =
+            stress.row(q).dot(solution.p.segment(row, stress.cols())) - exact.layer_stress;
+        const double along = de.template head<d - 1>().squaredNorm();
+        energy2 += weight * (along + epsilon * epsilon * dp * dp);
+      } else {
+        energy2 += weight * de.squaredNorm();
+      }
+    }
+    if (in_layer) row += stress.cols();
+  }
+  errors.l2 = std::sqrt(l2);
+  errors.h1 = std::sqrt(l2 + gradient2);
+  errors.energy = std::sqrt(errors.by_triangle.sum());
+  errors.by_triangle = errors.by_triangle.cwiseSqrt();
+}
+
 }  // namespace
 
 ExactPoint Reference::known(const Eigen::Vector2d& x, bool in_layer) const {
   if (at) return at(x(0), x(1));
-  return {value(x(0), x(1)), gradient(x(0), x(1)), in_layer ? layer_stress(x(0), x(1)) : 0};
+  return {value(x(0), x(1)), gradient(x(0), x(1)).head<2>(),
+          in_layer ? layer_stress(x(0), x(1)) : 0};
 }
 
 Reference reference(const ExactTable& table) {
@@ -76,67 +191,23 @@ Reference reference(const ExactTable& table) {
 
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon,
                       const Reference& reference) {
-  const TriangleMesh& mesh = space.mesh();
-  const Element& element = space.element();
+  const CellKind kind = space.mesh().kind;
+  if (kind == CellKind::quadrilateral)
+    throw Error("errors: a mesh of quadrilaterals; accepted: triangles and tetrahedra");
   check_solution(space, solution);
-  const Quadrature& rule = load_rule(element);
-  const Eigen::Index points = rule.weights.size();
-  std::vector<Eigen::VectorXd> basis, sample_basis;
-  std::vector<Eigen::MatrixX3d> derivative;
-  for (Eigen::Index q = 0; q < points; ++q) {
-    basis.push_back(element.basis(rule.points.row(q)));
-    derivative.push_back(element.derivative(rule.points.row(q)));
-  }
-  for (const Eigen::Vector3d& lambda : sample_points())
-    sample_basis.push_back(element.basis(lambda));
-
   Errors errors;
   const Eigen::VectorXd exact_dofs = dof_values(space, reference.value);
   for (int i = 0; i < space.size(); ++i)
     errors.max_at_unknowns =
         larger(errors.max_at_unknowns, std::abs(solution.u(i) - exact_dofs(i)));
-  double l2 = 0, gradient2 = 0;
-  errors.by_triangle.setZero(mesh.triangle_count());
-  Eigen::Index row = 0;
-  const Eigen::MatrixXd stress = layer_stress_values(element, rule.points);
-  Eigen::VectorXd u(space.cell_dofs().cols());
-  Eigen::MatrixX2d slopes(
-      u.size(), 2);  // of the basis; here, since both would be allocated per triangle and point
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    u = solution.u(space.cell_dofs().row(t));
-    for (std::size_t k = 0; k < sample_basis.size(); ++k) {
-      const Eigen::Vector2d x = point_in(mesh, t, sample_points()[k]);
-      errors.max =
-          larger(errors.max, std::abs(u.dot(sample_basis[k]) - reference.value(x(0), x(1))));
-    }
-    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
-    double& energy2 = errors.by_triangle(t);
-    const bool in_layer = mesh.region[t] == Region::layer;
-    const bool stiff = in_layer && solution.p.size() > 0;
-    for (Eigen::Index q = 0; q < points; ++q) {
-      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-      const double weight = rule.weights(q) * mesh.area(t);
-      const ExactPoint exact = reference.known(x, stiff);
-      const double e = u.dot(basis[q]) - exact.value;
-      slopes.noalias() = derivative[q] * lambda;
-      const Eigen::Vector2d de = slopes.transpose() * u - exact.gradient;
-      l2 += weight * e * e;
-      gradient2 += weight * de.squaredNorm();
-      if (stiff) {
-        // epsilon^-2 (d/dy e)^2 = epsilon^2 (p_h - p)^2, which also holds at epsilon = 0
-        const double dp =
-            stress.row(q).dot(solution.p.segment(row, stress.cols())) - exact.layer_stress;
-        energy2 += weight * (de(0) * de(0) + epsilon * epsilon * dp * dp);
-      } else {
-        energy2 += weight * de.squaredNorm();
-      }
-    }
-    if (in_layer) row += stress.cols();
-  }
-  errors.l2 = std::sqrt(l2);
-  errors.h1 = std::sqrt(l2 + gradient2);
-  errors.energy = std::sqrt(errors.by_triangle.sum());
-  errors.by_triangle = errors.by_triangle.cwiseSqrt();
+  const auto add = [&]<CellKind of_cells>() {
+    errors.max = largest_error<of_cells>(space, solution, reference);
+    add_errors_on_cells<of_cells>(errors, space, solution, epsilon, reference);
+  };
+  if (kind == CellKind::triangle)
+    add.template operator()<CellKind::triangle>();
+  else
+    add.template operator()<CellKind::tetrahedron>();
   return errors;
 }
 

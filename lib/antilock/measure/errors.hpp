@@ -1,28 +1,57 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "antilock/exact/exact_table.hpp"
 #include "antilock/problem/variational_inequality.hpp"
+#include "antilock/scene/scene.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/space/space.hpp"
 
 namespace antilock {
 
+/// A vector field: a function of x and y with two components, or one of x, y and z with three.
+class VectorField {
+ public:
+  VectorField() = default;
+  template <class Function>
+  requires(!std::is_same_v<Function, VectorField> &&
+           (std::is_invocable_v<Function&, double, double> ||
+            std::is_invocable_v<Function&, double, double, double>)) VectorField(Function f) {
+    if constexpr (MayBeEmpty<Function>)
+      if (!f) return;  // an empty function is an empty field
+    if constexpr (std::is_invocable_v<Function&, double, double, double>)
+      value_ = std::move(f);
+    else
+      value_ = [f = std::move(f)](double x, double y, double) mutable {
+        const Eigen::Vector2d in_plane = f(x, y);
+        return Eigen::Vector3d(in_plane(0), in_plane(1), 0);
+      };
+  }
+  /// Returns the three components; the third is 0 in the plane.
+  Eigen::Vector3d operator()(double x, double y, double z = 0) const { return value_(x, y, z); }
+  explicit operator bool() const { return static_cast<bool>(value_); }
+
+ private:
+  std::function<Eigen::Vector3d(double, double, double)> value_;
+};
+
 /// A reference solution u, against which errors are measured: its values at a point
 /// (dimensionless).
 struct Reference {
-  std::function<double(double x, double y)> value;
-  std::function<Eigen::Vector2d(double x, double y)> gradient;
-  /// epsilon^-2 d/dy u in the layer, its limit at epsilon = 0.
-  std::function<double(double x, double y)> layer_stress;
+  Field value;
+  VectorField gradient;
+  /// epsilon^-2 d/dy u in the layer, in space epsilon^-2 d/dz u; its limit at epsilon = 0.
+  Field layer_stress;
   /// Returns value, gradient and layer stress at once, which may be faster. Above the layer the
   /// stress that it returns has no meaning. This function may be empty; then the three functions
-  /// above are called.
+  /// above are called. In space it is not called.
   std::function<ExactPoint(double x, double y)> at = {};
-  /// Returns value, gradient and layer stress at x. The stress is valid only if `in_layer` is true
-  /// or the function `at` is given.
+  /// Returns value, gradient and layer stress at a point x of the plane. The stress is valid only
+  /// if `in_layer` is true or the function `at` is given.
   ExactPoint known(const Eigen::Vector2d& x, bool in_layer) const;
 };
 
@@ -32,8 +61,8 @@ Reference reference(const ExactTable& table);
 /// Absolute errors u_h - u; the names say the norm.
 struct Errors {
   double max_at_unknowns = 0;  ///< at the unknowns: vertices (P1) or edge midpoints (CR)
-  /// L-infinity, sampled at the 15 points of the lattice of order 4 of every triangle, corners
-  /// included.
+  /// L-infinity, sampled at the points of the lattice of order 4 of every cell, corners included:
+  /// 15 on a triangle, 35 on a tetrahedron.
   double max = 0;
   double l2 = 0;
   double h1 = 0;  ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
@@ -47,7 +76,8 @@ struct Errors {
   Eigen::VectorXd by_triangle;
 };
 
-/// Returns the errors of a solution. epsilon is that of the scene.
+/// Returns the errors of a solution on triangles or tetrahedra. epsilon is that of the scene.
+/// Throws Error for quadrilaterals, and for sizes that do not fit.
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon,
                       const Reference& reference);
 

@@ -37,6 +37,7 @@ struct Search {
 
 PointValues::PointValues(const Space& space) : space_(space) {
   const TriangleMesh& mesh = space.mesh();
+  require_triangles(mesh, "values at points");
   std::vector<int> triangles(std::max(2, mesh.triangle_count()));  // a tree has two leaves or more
   std::vector<Box> boxes(triangles.size());
   for (std::size_t k = 0; k < triangles.size(); ++k) {
@@ -61,8 +62,8 @@ double PointValues::value(const Eigen::VectorXd& u, const Location& at) const {
 }
 
 Eigen::Vector2d PointValues::gradient(const Eigen::VectorXd& u, const Location& at) const {
-  const Eigen::MatrixX2d slopes =
-      space_.element().derivative(at.lambda) * barycentric_gradients(space_.mesh(), at.triangle);
+  const Eigen::MatrixX3d derivative = space_.element().derivative(at.lambda);
+  const Eigen::MatrixX2d slopes = derivative * barycentric_gradients(space_.mesh(), at.triangle);
   return slopes.transpose() * u(space_.cell_dofs().row(at.triangle));
 }
 

@@ -38,8 +38,7 @@ TriangleMesh disc_mesh(int rings) {
       }
   }
   std::vector<Region> body(t, Region::body);
-  return make_triangle_mesh(std::move(vertices), std::move(triangles), std::move(body), rim,
-                            "disc mesh");
+  return make_mesh(std::move(vertices), std::move(triangles), std::move(body), rim, "disc mesh");
 }
 
 }  // namespace antilock

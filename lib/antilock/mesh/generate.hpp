@@ -9,26 +9,29 @@ namespace antilock {
 enum class Diagonal { right, left, crossed };
 
 /// The domain of Figure 2 of [SR04]: the unit square, and where layer_depth > 0 below it a layer
-/// (0,1) x (-layer_depth, 0). Sigma is the line y = 0 between them.
+/// (0,1) x (-layer_depth, 0). Sigma is the line y = 0 between them. For tetrahedra it is the same
+/// in space: the unit cube, and below it the layer (0,1)^2 x (-layer_depth, 0). Sigma is z = 0.
 struct Domain {
   /// 0: the body alone; 1: after the change of variable (Figure 2); epsilon: before it (Figure 1).
   double layer_depth = 1;
+  CellKind kind = CellKind::triangle;  ///< the cells of the mesh
 };
 
 /// Throws Error unless 1 <= cells <= most and 0 <= layer_depth <= 1.
 void check_mesh_request(int cells, int most, const Domain& domain);
 
 /// Returns the structured mesh of Figure 3: `cells` squares per unit side, each cut by a diagonal.
-/// A layer has max(2, round(layer_depth * cells)) rows, so that its cells are nearly square. Throws
-/// Error unless 1 <= cells <= 2048.
+/// A layer has max(2, round(layer_depth * cells)) rows, so that its cells are nearly square.
+/// Quadrilaterals are the squares themselves. Tetrahedra are six per cube, around its diagonal (H.
+/// W. Kuhn, IBM J. Res. Dev. 4, 1960). Throws Error unless 1 <= cells <= 2048, or 128 in space.
 TriangleMesh structured_mesh(int cells, const Domain& domain = {},
                              Diagonal diagonal = Diagonal::right);
 
 /// Returns the structured mesh with moved vertices: each vertex inside of the body or of the layer
-/// moves by up to amount * h in x and in y. The directions are random, but the same in every call
-/// and for every amount. Throws Error unless 0 <= amount <= 0.2, because with a larger one a
-/// triangle may turn over.
-TriangleMesh jittered_mesh(int cells, double amount);
+/// moves by up to amount * h in each coordinate. The directions are random, but the same in every
+/// call and for every amount. Throws Error unless 0 <= amount <= 0.2, because with a larger one a
+/// triangle may turn over, and where a cell does so.
+TriangleMesh jittered_mesh(int cells, double amount, const Domain& domain = {});
 
 /// The layers of the next two meshes are regular lattices. The layer of rows_mesh has `rows` rows
 /// of isosceles triangles. Their bases are horizontal, of length 1/cells, and alternately below and
@@ -49,7 +52,9 @@ enum class Mesher { mesh_adapt = 1, delaunay = 5, frontal = 6 };  ///< gmsh's ow
 /// alone k is the smallest number with cells / 2^k <= 80. With a thin layer k may be smaller,
 /// because the cells of the coarse mesh must not be deeper than the layer. Every triangle is then
 /// cut into four by its midpoints, k times. So the angles are those of the coarse mesh, and inside
-/// of its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512.
+/// of its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512. Tetrahedra are made
+/// by gmsh's Delaunay algorithm, whatever the mesher of their surfaces, for 1 <= cells <= 64.
+/// Quadrilaterals are refused.
 TriangleMesh unstructured_mesh(int cells, const Domain& domain = {},
                                Mesher mesher = Mesher::frontal);
 

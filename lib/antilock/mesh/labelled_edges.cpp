@@ -27,14 +27,16 @@ int physical_number(EdgeTag tag) {
 }
 
 std::vector<Labelled> labelled_edges(const TriangleMesh& mesh) {
+  const ReferenceCell& cell = mesh.reference();
   std::vector<Labelled> labelled;
   for (int edge = 0; edge < mesh.edge_count(); ++edge) {
     if (mesh.edge_tag[edge] == EdgeTag::interior) continue;
-    const int triangle = mesh.edge_triangles(edge, 0);
-    const int i = local_edge(mesh, triangle, edge);  // it runs from vertex i+1 to vertex i+2
-    labelled.push_back({mesh.triangles(triangle, (i + 1) % 3),
-                        mesh.triangles(triangle, (i + 2) % 3),
-                        physical_number(mesh.edge_tag[edge])});
+    const int t = mesh.edge_triangles(edge, 0);
+    const int i = local_edge(mesh, t, edge);
+    Labelled facet{{-1, -1, -1}, physical_number(mesh.edge_tag[edge])};
+    for (int k = 0; k < cell.dimension; ++k)
+      facet.vertices[k] = mesh.triangles(t, cell.facet[i][k]);
+    labelled.push_back(facet);
   }
   return labelled;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "antilock/mesh/triangle_mesh.hpp"
@@ -14,13 +15,14 @@ namespace antilock {
 /// of another group.
 int physical_number(EdgeTag tag);
 
-/// An edge that carries a group. Its vertices are in the order of its first triangle, so that the
-/// domain lies on the left of a boundary edge.
+/// A facet that carries a group. Its d vertices are in the order of its first cell, so that the
+/// domain lies on the left of a boundary edge, and the normal of a boundary face points outwards.
 struct Labelled {
-  int from, to, label;
+  std::array<int, 3> vertices;  ///< d of them; of an edge the third is -1
+  int label;
 };
 
-/// Returns all edges that are not interior, in the order of their numbers.
+/// Returns all facets that are not interior, in the order of their numbers.
 std::vector<Labelled> labelled_edges(const TriangleMesh& mesh);
 
 }  // namespace antilock

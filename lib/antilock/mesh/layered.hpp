@@ -16,6 +16,10 @@ namespace antilock {
 /// layer stress, so that P1 does not lock on this mesh. Throws Error unless 0 <= epsilon <= 1, for
 /// a body below y = 0, for one without Sigma and for one with a layer.
 ///
+/// Below a body of tetrahedra, with Sigma on the plane z = 0, the columns are prisms below the
+/// faces of Sigma. Each row of a prism is cut into three tetrahedra, and h is the side of a square
+/// of two faces of mean area.
+///
 /// With `along_normals` Sigma, the lower side of the body, may be curved, as the graph of a
 /// function of x. The layer of thickness t = epsilon is then gamma(s) + t d n(s), 0 < d < 1, with s
 /// the length along Sigma and n the normal out of the body. Let c be the curvature of Sigma and J =
@@ -46,7 +50,8 @@ Points drawn_along_normals(const TriangleMesh& mesh);
 /// Returns the layered mesh of the unit square: the body of gmsh (unstructured_mesh) with an
 /// extruded layer. A mesh that is made for one epsilon is fit for every smaller one, too. The layer
 /// has about `cells` rows for epsilon = 1, and one row where epsilon is at most the mean width of a
-/// column. Throws Error unless 1 <= cells <= 512.
-TriangleMesh layered_mesh(int cells, double epsilon = 1);
+/// column. Throws Error unless 1 <= cells <= 512. Tetrahedra fill the unit cube, and the prisms
+/// below each face of Sigma are cut into three; then 1 <= cells <= 64.
+TriangleMesh layered_mesh(int cells, double epsilon = 1, CellKind kind = CellKind::triangle);
 
 }  // namespace antilock

@@ -50,19 +50,95 @@ Quadrature radons_rule() {
   return rule;
 }
 
+/// The cube folded onto the tetrahedron: (s, mu) -> lambda = (s, (1 - s) mu) for a point mu of the
+/// triangle. Its volume element is (1 - s)^2.
+Quadrature conical_rule_in_space(int degree) {
+  const int n = (degree + 4) / 2;  // in s the polynomial is of degree + 2
+  const auto [points, weights] = gauss_rule(n);
+  const Quadrature& base = triangle_rule(degree);
+  const Eigen::Index m = base.weights.size();
+  Quadrature rule{ReferencePoints(n * m, 4), Eigen::VectorXd(n * m)};
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < m; ++j) {
+      const double s = points(i);
+      rule.points.row(m * i + j) << s, (1 - s) * base.points.row(j);
+      rule.weights(m * i + j) = 3 * weights(i) * base.weights(j) * (1 - s) * (1 - s);
+    }
+  return rule;
+}
+
+/// P. C. Hammer and A. H. Stroud, Math. Tables Aids Comput. 10, 1956
+Quadrature four_point_rule() {
+  const double b = (5 - std::sqrt(5.0)) / 20;
+  return {ReferencePoints::Constant(4, 4, b) + (1 - 4 * b) * ReferencePoints::Identity(4, 4),
+          Eigen::VectorXd::Constant(4, 0.25)};
+}
+
+Quadrature square_rule(int degree) {
+  const int n = degree / 2 + 1;
+  const auto [points, weights] = gauss_rule(n);
+  Quadrature rule{ReferencePoints(n * n, 2), Eigen::VectorXd(n * n)};
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      rule.points.row(n * i + j) << points(i), points(j);
+      rule.weights(n * i + j) = weights(i) * weights(j);
+    }
+  return rule;
+}
+
+constexpr int largest_degree = 12;
+
+void check_degree(int degree) {
+  if (degree < 0 || degree > largest_degree)
+    throw Error(
+        fmt::format("quadrature: degree {} is not accepted; 0 to {}", degree, largest_degree));
+}
+
 }  // namespace
 
+const Quadrature& cell_rule(CellKind kind, int degree) {
+  if (kind == CellKind::triangle) return triangle_rule(degree);
+  check_degree(degree);
+  using Rules = std::array<Quadrature, largest_degree + 1>;
+  static const Rules tetrahedra = [] {
+    Rules r;
+    r[0] = r[1] = {ReferencePoints::Constant(1, 4, 0.25), Eigen::VectorXd::Ones(1)};
+    r[2] = four_point_rule();
+    for (int d = 3; d <= largest_degree; ++d) r[d] = conical_rule_in_space(d);
+    return r;
+  }();
+  static const Rules squares = [] {
+    Rules r;
+    for (int d = 0; d <= largest_degree; ++d) r[d] = square_rule(d);
+    return r;
+  }();
+  return kind == CellKind::tetrahedron ? tetrahedra[degree] : squares[degree];
+}
+
+Quadrature facet_rule(CellKind kind, int degree) {
+  if (kind == CellKind::tetrahedron) return triangle_rule(degree);
+  const auto [points, weights] = gauss_rule(degree / 2 + 1);
+  Quadrature rule{ReferencePoints(points.size(), 2), weights};
+  rule.points << (1 - points.array()).matrix(), points;
+  return rule;
+}
+
+ReferencePoint on_facet(CellKind kind, int i, const ReferencePoint& mu) {
+  const ReferenceCell& cell = reference_cell(kind);
+  ReferencePoint xi = ReferencePoint::Zero(cell.coordinates);
+  for (int k = 0; k < cell.dimension; ++k) xi += mu(k) * reference_vertex(kind, cell.facet[i][k]);
+  return xi;
+}
+
 const Quadrature& triangle_rule(int degree) {
-  constexpr int most = 12;
-  if (degree < 0 || degree > most)
-    throw Error(fmt::format("quadrature: degree {} is not accepted; 0 to {}", degree, most));
-  static const std::array<Quadrature, most + 1> rules = [] {
-    std::array<Quadrature, most + 1> r;
+  check_degree(degree);
+  static const std::array<Quadrature, largest_degree + 1> rules = [] {
+    std::array<Quadrature, largest_degree + 1> r;
     r[0] = r[1] = {Eigen::RowVector3d::Constant(1.0 / 3), Eigen::VectorXd::Ones(1)};
     r[2] = {0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity()),
             Eigen::Vector3d::Constant(1.0 / 3)};
     r[3] = r[4] = r[5] = radons_rule();
-    for (int d = 6; d <= most; ++d) r[d] = conical_rule(d);
+    for (int d = 6; d <= largest_degree; ++d) r[d] = conical_rule(d);
     return r;
   }();
   return rules[degree];

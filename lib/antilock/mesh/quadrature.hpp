@@ -2,14 +2,14 @@
 #include <Eigen/Core>
 #include <utility>
 
-#include "antilock/core/eigen_memory.hpp"
+#include "antilock/mesh/cell_kind.hpp"
 
 namespace antilock {
 
-/// A quadrature rule on a triangle T: int_T f is about |T| sum_q weights_q f(points_q). The weights
-/// sum to 1.
+/// A quadrature rule on the reference cell of a kind, in its coordinates. The weights sum to 1. On
+/// a simplex T int_T f is about |T| sum_q weights_q f(points_q).
 struct Quadrature {
-  Eigen::MatrixX3d points;  ///< q x 3, barycentric
+  ReferencePoints points;   ///< q x c
   Eigen::VectorXd weights;  ///< q
 };
 
@@ -22,6 +22,15 @@ const Quadrature& midpoint_rule();
 /// and from degree 6 on Stroud's conical product (Gauss points in both directions of a square that
 /// is mapped to the triangle). Throws Error for a degree outside 0 to 12.
 const Quadrature& triangle_rule(int degree);
+/// Returns such a rule on the reference cell of a kind. On a tetrahedron it is the centroid, the
+/// four points of Hammer and Stroud for degree 2, and the conical product from degree 3 on. On a
+/// quadrilateral it is the product of two Gauss rules, exact for this degree in s and in t.
+const Quadrature& cell_rule(CellKind kind, int degree);
+/// Returns the rule of this degree on a facet of a kind: points in the barycentric coordinates of
+/// the facet (q x d), in the order of its vertices.
+Quadrature facet_rule(CellKind kind, int degree);
+/// Returns the point of the reference cell with the barycentric coordinates mu (d) on facet i.
+ReferencePoint on_facet(CellKind kind, int i, const ReferencePoint& mu);
 
 /// Returns points (n) and weights (n) of Gauss's rule on (0, 1), exact for degree 2n - 1.
 std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n);

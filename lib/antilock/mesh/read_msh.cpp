@@ -137,15 +137,15 @@ struct FileNode {
   int line;
 };
 
-/// A point, line or triangle: 1, 2 or 3 nodes.
+/// A point, line, triangle or tetrahedron: 1, 2, 3 or 4 nodes.
 struct FileElement {
   std::int64_t tag;
   std::int64_t
       group;  ///< MSH 2.2: the physical group; 4.1: the entity, whose group $Entities tells
-  std::int64_t surface;  ///< the point, curve or surface that it is on; MSH 2.2: the group, where
-                         ///< that is not told
+  std::int64_t surface;  ///< the point, curve, surface or volume that it is on; MSH 2.2: the group,
+                         ///< where that is not told
   int size;
-  std::array<std::int64_t, 3> nodes;
+  std::array<std::int64_t, 4> nodes;
   int line;
   int dimension() const { return size - 1; }
 };
@@ -156,12 +156,18 @@ using Place = std::pair<int, std::int64_t>;
 /// Names of physical groups, each with its dimension before it.
 using GroupNames = std::set<std::pair<int, std::string>>;
 
+/// The name of a physical group, and the line of the file that gives it.
+struct GroupName {
+  std::string text;
+  int line;
+};
+
 /// A MSH file as it stands, its tags not yet resolved.
 struct MshFile {
   bool version_4 = false;
-  std::map<Place, std::string> names;  ///< of the physical groups of curves and surfaces
+  std::map<Place, GroupName> names;  ///< of the physical groups of curves, surfaces and volumes
   std::map<Place, std::int64_t>
-      entities;  ///< 4.1: the physical group of a curve or surface, 0 for none
+      entities;  ///< 4.1: the physical group of a curve, surface or volume, 0 for none
   std::vector<FileNode> nodes;
   std::vector<FileElement> elements;
 };
@@ -178,7 +184,11 @@ int read_dimension(const MshLines& lines, std::size_t field) {
 int element_size(const MshLines& lines, std::int64_t type) {
   if (type == 15) return 1;
   if (type == 1 || type == 2) return static_cast<int>(type) + 1;
-  lines.refuse("element type {}; accepted: 15 (point), 1 (line), 2 (triangle of 3 nodes)", type);
+  if (type == 4) return 4;
+  lines.refuse(
+      "element type {}; accepted: 15 (point), 1 (line), 2 (triangle of 3 nodes), 4 (tetrahedron of "
+      "4 nodes)",
+      type);
 }
 
 void read_format(MshLines& lines, MshFile& file) {
@@ -191,10 +201,8 @@ void read_format(MshLines& lines, MshFile& file) {
   file.version_4 = version == "4.1";
 }
 
-/// Records: dimension number "name".
-/// `known`: names with their dimensions. A curve and a surface may have one name.
-void read_names(MshLines& lines, MshFile& file, GroupNames known) {
-  known.insert({{2, "body"}, {2, "layer"}, {1, "sigma"}, {1, "clamped"}, {1, "contact"}});
+/// Records: dimension number "name". A curve and a surface may have one name.
+void read_names(MshLines& lines, MshFile& file) {
   lines.next_record("PhysicalNames", 1, "their number");
   for (std::int64_t left = lines.count(0); left > 0; --left) {
     lines.next_record("PhysicalNames");
@@ -205,22 +213,43 @@ void read_names(MshLines& lines, MshFile& file, GroupNames known) {
     const int dimension = read_dimension(lines, 0);
     if (dimension == 0) continue;  // points carry nothing here
     const std::string name(line.substr(open + 1, close - open - 1));
-    if (!known.contains({dimension, name})) {
-      std::string accepted;  // the scene's own names stand here, too: a misspelt one is seen
-      for (const auto& [of, each] : known)
-        if (of == dimension) accepted += each + ", ";
-      lines.refuse(
-          "unknown {} group {}; accepted: {}and others that a scene names in [[edge]] or in [body] "
-          "stiffness",
-          dimension_names[dimension], in_quotes(name), accepted);
-    }
     for (const auto& [place, other] : file.names)
-      if (other == name && place.first == dimension)
+      if (other.text == name && place.first == dimension)
         lines.refuse<MeshError>("the {} group {} is named twice", dimension_names[dimension],
                                 in_quotes(name));
-    if (!file.names.emplace(Place{dimension, lines.integer(1)}, name).second)
+    const GroupName group{name, lines.number};
+    if (!file.names.emplace(Place{dimension, lines.integer(1)}, group).second)
       lines.refuse<MeshError>("{} group {} has two names", dimension_names[dimension],
                               lines.integer(1));
+  }
+}
+
+/// The dimension d of the mesh of a file: 3 where it has tetrahedra, and 2 else.
+int mesh_dimension(const MshFile& file) {
+  int dimension = 2;
+  for (const FileElement& element : file.elements)
+    dimension = std::max(dimension, element.dimension());
+  return dimension;
+}
+
+/// Throws unless all groups of cells and of facets have names that are known. Where the mesh is one
+/// of tetrahedra, curves carry nothing.
+void check_names(const MshLines& lines, const MshFile& file, const ExtraGroups& more, int d) {
+  GroupNames known{{d, "body"}, {d, "layer"}};
+  for (const char* facets : {"sigma", "clamped", "contact"}) known.emplace(d - 1, facets);
+  for (const auto& [name, tag] : more.curves) known.emplace(d - 1, name);
+  for (const std::string& body : more.bodies) known.emplace(d, body);
+  for (const auto& [place, name] : file.names) {
+    const int dimension = place.first;
+    if (dimension < d - 1 || known.contains({dimension, name.text})) continue;
+    std::string accepted;  // the scene's own names stand here, too: a misspelt one is seen
+    for (const auto& [of, each] : known)
+      if (of == dimension) accepted += each + ", ";
+    lines.refuse_at(
+        name.line,
+        "unknown {} group {}; accepted: {}and others that a scene names in [[edge]] or in [body] "
+        "stiffness",
+        dimension_names[dimension], in_quotes(name.text), accepted);
   }
 }
 
@@ -352,10 +381,8 @@ void read_elements_4(MshLines& lines, MshFile& file) {
                             file.elements.size());
 }
 
-/// Reads and checks every section that a mesh needs, 2.2 or 4.1.
-/// `more`: the names that it may have beside body, layer, sigma, clamped and contact, with their
-/// dimensions.
-MshFile read_sections(MshLines& lines, const GroupNames& more) {
+/// Reads every section that a mesh needs, 2.2 or 4.1.
+MshFile read_sections(MshLines& lines) {
   bool any = lines.next();
   for (; any && lines.fields[0] == "$Comments"; any = lines.next()) lines.skip_section("Comments");
   if (!any || lines.fields[0] != "$MeshFormat")
@@ -377,7 +404,7 @@ MshFile read_sections(MshLines& lines, const GroupNames& more) {
       read_format(lines, file);
     } else if (section == "PhysicalNames") {
       first_time(section);
-      read_names(lines, file, more);
+      read_names(lines, file);
     } else if (section == "Entities" && file.version_4) {
       first_time(section);
       read_entities(lines, file);
@@ -404,8 +431,8 @@ MshFile read_sections(MshLines& lines, const GroupNames& more) {
   return file;
 }
 
-/// The physical group that a line or a triangle is in, 0 for none; a negative number, which turns
-/// the entity round, is that of the same group.
+/// The physical group that an element is in, 0 for none; a negative number, which turns the entity
+/// round, is that of the same group.
 std::int64_t group_number(const MshLines& lines, const MshFile& file, const FileElement& element) {
   if (!file.version_4) return std::abs(element.group);
   const auto entity = file.entities.find({element.dimension(), element.group});
@@ -431,7 +458,7 @@ const std::string& group_name(const MshLines& lines, const MshFile& file,
     lines.refuse_at<MeshError>(element.line,
                                "element {} is in {} group {}, which $PhysicalNames does not name",
                                element.tag, dimension, group);
-  return name->second;
+  return name->second.text;
 }
 
 /// Node tags, which may have gaps, to places in the file from 0 on.
@@ -447,26 +474,27 @@ std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines,
   return place;
 }
 
-/// The vertices of the mesh: the nodes that a line or a triangle has, in the order of the file. A
-/// node of none of them (the centre of a circle, a physical point) is left out.
+/// The vertices of the mesh: the nodes that a cell or a facet has, in the order of the file. A node
+/// of none of them (the centre of a circle, a physical point) is left out.
 class Vertices {
  public:
   explicit Vertices(const std::vector<FileNode>& nodes)
       : nodes_(nodes), number_(nodes.size(), unused) {}
   void use(int place) { number_[place] = 0; }
 
-  /// Numbers those in use. Throws Error for one that is off the plane z = 0.
-  void number(const MshLines& lines) {
+  /// Numbers those in use, for a mesh of dimension d. Throws Error for one of a plane mesh that is
+  /// off the plane z = 0.
+  void number(const MshLines& lines, int d) {
     std::vector<const FileNode*> used;
     for (std::size_t place = 0; place < nodes_.size(); ++place) {
       if (number_[place] == unused) continue;
       number_[place] = static_cast<int>(used.size());
       used.push_back(&nodes_[place]);
     }
-    points.resize(static_cast<Eigen::Index>(used.size()), 2);
+    points.resize(static_cast<Eigen::Index>(used.size()), d);
     for (std::size_t v = 0; v < used.size(); ++v)
-      points.row(static_cast<Eigen::Index>(v)) << used[v]->at[0], used[v]->at[1];
-    if (used.empty()) return;
+      for (int k = 0; k < d; ++k) points(static_cast<Eigen::Index>(v), k) = used[v]->at[k];
+    if (used.empty() || d == 3) return;
     const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
     constexpr double flat = 1e-12;  // of the mesh's size: what a generator's round-off may leave
     for (const FileNode* node : used)
@@ -483,10 +511,10 @@ class Vertices {
   std::vector<int> number_;  ///< by place in the file
 };
 
-/// The places of the nodes of an element, up to three.
-std::array<int, 3> places_of_nodes(const MshLines& lines, const FileElement& element,
+/// The places of the nodes of an element, up to four.
+std::array<int, 4> places_of_nodes(const MshLines& lines, const FileElement& element,
                                    const std::unordered_map<std::int64_t, int>& place_of) {
-  std::array<int, 3> places{};
+  std::array<int, 4> places{};
   for (int i = 0; i < element.size; ++i) {
     const auto node = place_of.find(element.nodes[i]);
     if (node == place_of.end())
@@ -497,10 +525,12 @@ std::array<int, 3> places_of_nodes(const MshLines& lines, const FileElement& ele
   return places;
 }
 
-/// Throws unless every group that is needed, and every one that the file names, has elements.
+/// Throws unless every group that is needed, and every one that the file names, has elements. d is
+/// the dimension of the mesh.
 void check_groups(const MshLines& lines, const MshFile& file, const ExtraGroups& more,
-                  const GroupNames& found) {
-  for (const auto& [dimension, name] : GroupNames{{2, "body"}, {1, "clamped"}, {1, "contact"}}) {
+                  const GroupNames& found, int d) {
+  for (const auto& [dimension, name] :
+       GroupNames{{d, "body"}, {d - 1, "clamped"}, {d - 1, "contact"}}) {
     if (found.contains({dimension, name})) continue;
     const bool is_optional = (name == "body" && !more.bodies.empty()) ||
                              (name == "clamped" && !more.curves.empty()) ||
@@ -510,78 +540,99 @@ void check_groups(const MshLines& lines, const MshFile& file, const ExtraGroups&
           "has nothing in the physical group {}; needed: body, clamped, contact", in_quotes(name));
   }
   for (const auto& [name, tag] : more.curves)
-    if (!found.contains({1, name}))
-      lines.refuse_file<MeshError>("has no curve in the group {}", in_quotes(name));
+    if (!found.contains({d - 1, name}))
+      lines.refuse_file<MeshError>("has no {} in the group {}", dimension_names[d - 1],
+                                   in_quotes(name));
   for (const std::string& name : more.bodies)
-    if (!found.contains({2, name}))
-      lines.refuse_file<MeshError>("has no surface in the group {}", in_quotes(name));
+    if (!found.contains({d, name}))
+      lines.refuse_file<MeshError>("has no {} in the group {}", dimension_names[d],
+                                   in_quotes(name));
   for (const auto& [place, name] : file.names)
-    if (!found.contains({place.first, name}))
-      lines.refuse_file<MeshError>("names the physical group {}, but it is empty", in_quotes(name));
+    if (place.first >= d - 1 && !found.contains({place.first, name.text}))
+      lines.refuse_file<MeshError>("names the physical group {}, but it is empty",
+                                   in_quotes(name.text));
+}
+
+/// The cells of a file, while they are collected.
+struct Cells {
+  std::vector<int> corners;  ///< of one cell after the other
+  std::vector<Region> region;
+  std::vector<int> surface;
+  std::map<std::pair<std::int64_t, std::int64_t>, int> surfaces;  ///< of a group and its entity
+  /// By their nodes in ascending order. A triangle has place 0 as its fourth node.
+  std::map<std::array<int, 4>, const FileElement*> seen;
+};
+
+/// Adds a cell, in the group `name`. Throws Error where the file has the same cell before.
+void add_cell(Cells& cells, const MshLines& lines, const MshFile& file, const FileElement& element,
+              const std::array<int, 4>& vertices, const std::string& name) {
+  std::array<int, 4> nodes = vertices;
+  std::sort(nodes.begin(), nodes.end());
+  if (const auto [first, alone] = cells.seen.emplace(nodes, &element); !alone)
+    lines.refuse_at(element.line,
+                    "element {}, in the group {}, is the same {} as element {}, in the group {}; "
+                    "accepted: each {} once, in one group",
+                    element.tag, in_quotes(name), element.size == 3 ? "triangle" : "tetrahedron",
+                    first->second->tag, in_quotes(group_name(lines, file, *first->second)),
+                    element.size == 3 ? "triangle" : "tetrahedron");
+  cells.corners.insert(cells.corners.end(), vertices.begin(), vertices.begin() + element.size);
+  const std::pair named(element.group, element.surface);
+  const auto next = static_cast<int>(cells.surfaces.size());
+  cells.surface.push_back(cells.surfaces.emplace(named, next).first->second);
+  cells.region.push_back(name == "layer" ? Region::layer : Region::body);
+}
+
+/// A facet of the file in a group. Its vertices are places in the file.
+TaggedEdge tagged_facet(const FileElement& element, const std::array<int, 4>& vertices,
+                        EdgeTag tag) {
+  if (element.size == 2) return {vertices[0], vertices[1], tag};
+  return {vertices[0], vertices[1], vertices[2], tag};
 }
 
 TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGroups& more,
                      std::vector<int>* part) {
+  const int d = mesh_dimension(file);
+  check_names(lines, file, more, d);
   std::map<std::string, EdgeTag> edge_tags = more.curves;
   edge_tags.insert(
       {{"sigma", EdgeTag::sigma}, {"clamped", EdgeTag::clamped}, {"contact", EdgeTag::contact}});
   const auto place_of = number_nodes(lines, file.nodes);
   Vertices used(file.nodes);
-  std::vector<std::array<int, 3>> corners;
-  std::vector<Region> region;
-  std::vector<int> surface;
-  std::map<std::pair<std::int64_t, std::int64_t>, int> surfaces;  // of a group and its entity
+  Cells cells;
   std::vector<TaggedEdge> edges;
-  std::map<std::array<int, 3>, const FileElement*>
-      triangles_seen;  // by their nodes in ascending order
   GroupNames found;
   std::unordered_set<std::int64_t> tags;
   if (part != nullptr) part->clear();
   for (const FileElement& element : file.elements) {
     if (!tags.insert(element.tag).second)
       lines.refuse_at<MeshError>(element.line, "element number {} is used twice", element.tag);
-    const std::array<int, 3> vertices = places_of_nodes(lines, element, place_of);
-    if (element.dimension() == 0) continue;
-    // Mesh.SaveAll: of the lines within the body nothing is said, and a side in no group is refused
-    // with its place
-    if (element.dimension() == 1 && group_number(lines, file, element) == 0) continue;
+    const std::array<int, 4> vertices = places_of_nodes(lines, element, place_of);
+    const bool is_facet = element.dimension() == d - 1;
+    if (element.dimension() < d - 1) continue;
+    // Mesh.SaveAll: of the facets within the body nothing is said, and a side in no group is
+    // refused with its place
+    if (is_facet && group_number(lines, file, element) == 0) continue;
     const std::string& name = group_name(lines, file, element);
     found.emplace(element.dimension(), name);
     for (int i = 0; i < element.size; ++i) used.use(vertices[i]);
-    if (element.dimension() == 1) {
-      edges.push_back({vertices[0], vertices[1], edge_tags.at(name)});
-    } else {
-      std::array<int, 3> nodes = vertices;
-      std::sort(nodes.begin(), nodes.end());
-      if (const auto [first, alone] = triangles_seen.emplace(nodes, &element); !alone)
-        lines.refuse_at(element.line,
-                        "element {}, in the group {}, is the same triangle as element {}, in the "
-                        "group {}; accepted: "
-                        "each triangle once, in one group",
-                        element.tag, in_quotes(name), first->second->tag,
-                        in_quotes(group_name(lines, file, *first->second)));
-      corners.push_back(vertices);
-      const std::pair named(element.group, element.surface);
-      surface.push_back(surfaces.emplace(named, static_cast<int>(surfaces.size())).first->second);
-      region.push_back(name == "layer" ? Region::layer : Region::body);
-      if (part != nullptr) {
-        const auto at = std::find(more.bodies.begin(), more.bodies.end(), name);
-        part->push_back(at == more.bodies.end() ? -1 : static_cast<int>(at - more.bodies.begin()));
-      }
+    if (is_facet) {
+      edges.push_back(tagged_facet(element, vertices, edge_tags.at(name)));
+      continue;
     }
+    add_cell(cells, lines, file, element, vertices, name);
+    if (part == nullptr) continue;
+    const auto at = std::find(more.bodies.begin(), more.bodies.end(), name);
+    part->push_back(at == more.bodies.end() ? -1 : static_cast<int>(at - more.bodies.begin()));
   }
-  check_groups(lines, file, more, found);
-  used.number(lines);
-  for (auto& triangle : corners)
-    for (int& corner : triangle) corner = used.at(corner);
-  for (TaggedEdge& edge : edges) {
-    edge.from = used.at(edge.from);
-    edge.to = used.at(edge.to);
-  }
-  Triples triangles =
-      Eigen::Map<Triples>(corners[0].data(), static_cast<Eigen::Index>(corners.size()), 3);
-  return make_triangle_mesh(std::move(used.points), std::move(triangles), std::move(region), edges,
-                            lines.name, surface);
+  check_groups(lines, file, more, found, d);
+  used.number(lines, d);
+  for (int& corner : cells.corners) corner = used.at(corner);
+  for (TaggedEdge& edge : edges)
+    for (int i = 0; i < d; ++i) edge.vertices[i] = used.at(edge.vertices[i]);
+  const auto count = static_cast<Eigen::Index>(cells.region.size());
+  IndexRows corners = Eigen::Map<IndexRows>(cells.corners.data(), count, d + 1);
+  return make_mesh(std::move(used.points), std::move(corners), std::move(cells.region), edges,
+                   lines.name, cells.surface);
 }
 
 }  // namespace
@@ -589,10 +640,7 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGrou
 TriangleMesh read_msh(std::istream& in, const std::string& name, const ExtraGroups& more,
                       std::vector<int>* part) {
   MshLines lines(in, name);
-  GroupNames known;
-  for (const auto& [curve, tag] : more.curves) known.emplace(1, curve);
-  for (const std::string& body : more.bodies) known.emplace(2, body);
-  return resolve(lines, read_sections(lines, known), more, part);
+  return resolve(lines, read_sections(lines), more, part);
 }
 
 TriangleMesh read_msh(const std::string& path, const ExtraGroups& more, std::vector<int>* part) {

@@ -11,6 +11,7 @@
 namespace antilock {
 
 void follow_geometry(const TriangleMesh& mesh, const std::vector<int>& middle, Points& vertices) {
+  require_triangles(mesh, "mesh on the curves of a geometry");
   if (mesh.geometry.empty()) return;
   constexpr double slack = 1e-6;  // of the mesh's size: mesh files have from 6 to 16 digits
   const double size =
@@ -55,6 +56,7 @@ std::string refinement_name(const TriangleMesh& mesh, const std::string& how) {
 }
 
 TriangleMesh refined(const TriangleMesh& mesh) {
+  require_triangles(mesh, "refined mesh");
   const int corners = mesh.vertex_count();  // the midpoint of edge e becomes vertex corners + e
   Points vertices(corners + mesh.edge_count(), 2);
   vertices.topRows(corners) = mesh.vertices;
@@ -72,17 +74,16 @@ TriangleMesh refined(const TriangleMesh& mesh) {
   Triples triangles(4 * mesh.triangle_count(), 3);
   std::vector<Region> region;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Eigen::RowVector3i v = mesh.triangles.row(t),
-                             m = mesh.triangle_edges.row(t).array() + corners;
+    const Eigen::RowVector3i v = mesh.triangles.row(t).head<3>();
+    const Eigen::RowVector3i m = mesh.triangle_edges.row(t).head<3>().array() + corners;
     triangles.row(4 * t) << v(0), m(2), m(1);  // midpoint i lies opposite vertex i
     triangles.row(4 * t + 1) << v(1), m(0), m(2);
     triangles.row(4 * t + 2) << v(2), m(1), m(0);
-    triangles.row(4 * t + 3) = m;
+    triangles.row(4 * t + 3) << m(0), m(1), m(2);
     region.insert(region.end(), 4, mesh.region[t]);
   }
-  TriangleMesh finer =
-      make_triangle_mesh(std::move(vertices), std::move(triangles), std::move(region), tagged,
-                         refinement_name(mesh, "refined mesh"));
+  TriangleMesh finer = make_mesh(std::move(vertices), std::move(triangles), std::move(region),
+                                 tagged, refinement_name(mesh, "refined mesh"));
   finer.geometry = mesh.geometry;
   for (const CurvedColumn& column : mesh.curved_columns)
     finer.curved_columns.insert(finer.curved_columns.end(), 4, column);

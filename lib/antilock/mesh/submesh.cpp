@@ -5,6 +5,7 @@
 namespace antilock {
 
 Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)>& selected) {
+  require_triangles(mesh, "submesh");
   Submesh part;
   std::vector<int> number(mesh.vertex_count(), -1), owners(mesh.edge_count(), 0);
   std::vector<Region> region;
@@ -35,8 +36,8 @@ Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)
       tagged.push_back({number[mesh.edges(e, 0)], number[mesh.edges(e, 1)], tag});
   }
   Points points = mesh.vertices(part.old_vertex, Eigen::indexing::all);
-  part.mesh = make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), tagged,
-                                 "a part of a mesh");
+  part.mesh = make_mesh(std::move(points), std::move(triangles), std::move(region), tagged,
+                        "a part of a mesh");
   part.mesh.geometry = mesh.geometry;
   return part;
 }

@@ -24,8 +24,24 @@ namespace antilock {
 
 namespace {
 
-/// Vertices and triangles, all that gmsh hands over.
-using MeshArrays = std::pair<Points, Triples>;
+/// Vertices and cells, all that gmsh hands over.
+using MeshArrays = std::pair<Points, IndexRows>;
+
+/// gmsh places points of the outline to about 1e-12: this puts them exactly on it.
+void snap_to_outline(Points& points, double depth) {
+  const auto snap = [](double& value, std::initializer_list<double> lines) {
+    for (const double line : lines)
+      if (std::abs(value - line) < 1e-9) {
+        value = line;
+        return;
+      }
+  };
+  const Eigen::Index vertical = points.cols() - 1;
+  for (auto point : points.rowwise()) {
+    for (Eigen::Index k = 0; k < vertical; ++k) snap(point(k), {0, 1});
+    snap(point(vertical), {-depth, 0, 1});
+  }
+}
 
 /// gmsh's mesh of Figure 2, with edges of about h in the body and h_layer along and below Sigma.
 MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
@@ -42,15 +58,36 @@ MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
     gmsh.add_surface({gmsh.add_line(d, e), gmsh.add_line(e, b), -sigma, gmsh.add_line(a, d)});
   }
   MeshArrays made = gmsh.generate();
+  snap_to_outline(made.first, depth);
+  return made;
+}
 
-  // gmsh places points of the outline to about 1e-12: put them exactly on it
-  const auto snap = [](double value, std::initializer_list<double> lines) {
-    for (const double line : lines)
-      if (std::abs(value - line) < 1e-9) return line;
-    return value;
-  };
-  for (auto point : made.first.rowwise())
-    point << snap(point(0), {0, 1}), snap(point(1), {-depth, 0, 1});
+/// The same in space: a box above another one.
+MeshArrays boxes_by_gmsh(double depth, double h, double h_layer) {
+  GmshSession gmsh;
+  std::vector<double> heights{0, 1};
+  if (depth > 0) heights.insert(heights.begin(), -depth);
+  // the corners and the four sides of each level, from (0, 0) counterclockwise
+  std::vector<std::array<int, 4>> corners, sides;
+  std::vector<int> floors;
+  for (const double z : heights) {
+    const double size = z > 0 ? h : h_layer;
+    corners.push_back({gmsh.add_point(0, 0, size, z), gmsh.add_point(1, 0, size, z),
+                       gmsh.add_point(1, 1, size, z), gmsh.add_point(0, 1, size, z)});
+    sides.emplace_back();
+    for (int i = 0; i < 4; ++i)
+      sides.back()[i] = gmsh.add_line(corners.back()[i], corners.back()[(i + 1) % 4]);
+    floors.push_back(gmsh.add_surface(sides.back()));
+  }
+  for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
+    std::array<int, 4> posts{}, walls{};
+    for (int i = 0; i < 4; ++i) posts[i] = gmsh.add_line(corners[k][i], corners[k + 1][i]);
+    for (int i = 0; i < 4; ++i)
+      walls[i] = gmsh.add_surface({sides[k][i], posts[(i + 1) % 4], -sides[k + 1][i], -posts[i]});
+    gmsh.add_volume({floors[k], floors[k + 1], walls[0], walls[1], walls[2], walls[3]});
+  }
+  MeshArrays made = gmsh.generate(CellKind::tetrahedron);
+  snap_to_outline(made.first, depth);
   return made;
 }
 
@@ -58,11 +95,12 @@ MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
 /// then both arrays as they lie in memory. A file that does not hold what its numbers promise is
 /// made anew.
 template <class Make>
-MeshArrays kept_mesh(const std::string& name, Make&& make) {
+MeshArrays kept_mesh(const std::string& name, CellKind kind, Make&& make) {
   const char* folder = std::getenv("ANTILOCK_MESHES");
   if (folder == nullptr || *folder == '\0') return make();
   const std::filesystem::path path = std::filesystem::path(folder) / name;
-  constexpr std::size_t vertex = 2 * sizeof(double), triangle = 3 * sizeof(int);
+  const int dimension = reference_cell(kind).dimension, corners = reference_cell(kind).vertices;
+  const std::size_t vertex = dimension * sizeof(double), triangle = corners * sizeof(int);
   std::array<std::uint64_t, 2> counts{};
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(path, error);
@@ -74,7 +112,7 @@ MeshArrays kept_mesh(const std::string& name, Make&& make) {
   if (!error && get(counts.data(), sizeof counts) && counts[0] <= size / vertex &&
       counts[1] <= size / triangle &&
       size == sizeof counts + counts[0] * vertex + counts[1] * triangle) {
-    MeshArrays kept{Points(counts[0], 2), Triples(counts[1], 3)};
+    MeshArrays kept{Points(counts[0], dimension), IndexRows(counts[1], corners)};
     if (get(kept.first.data(), counts[0] * vertex) &&
         get(kept.second.data(), counts[1] * triangle) && counts[1] > 0 &&
         kept.second.minCoeff() >= 0 && kept.second.maxCoeff() < kept.first.rows())
@@ -100,7 +138,10 @@ std::string hexadecimal(double x) { return x == 0 ? "0x0p+0" : fmt::format("{:a}
 }  // namespace
 
 TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
-  check_mesh_request(cells, 512, domain);
+  if (domain.kind == CellKind::quadrilateral)
+    throw Error("mesh: an unstructured mesh of quadrilaterals; accepted: triangles or tetrahedra");
+  const bool in_space = domain.kind == CellKind::tetrahedron;
+  check_mesh_request(cells, in_space ? 64 : 512, domain);
   const double depth = domain.layer_depth, h = 1.0 / cells,
                h_layer = depth > 0 ? std::min(h, depth / 2) : h;
   // gmsh's seconds grow faster than its triangles: 0.5 s at 64 cells, 4 at 128, 28 at 256
@@ -112,10 +153,17 @@ TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
   if (cells > most_by_gmsh)
     while ((most_to_refine << halvings) < cells && fits(halvings + 1)) ++halvings;
   const double h_made = (1 << halvings) * h, h_layer_made = (1 << halvings) * h_layer;
+  if (in_space) {
+    auto [vertices, tetrahedra] =
+        kept_mesh(fmt::format("tetrahedra_{}_{}_{}", hexadecimal(depth), hexadecimal(h),
+                              hexadecimal(h_layer)),
+                  domain.kind, [&] { return boxes_by_gmsh(depth, h, h_layer); });
+    return tag_by_position(std::move(vertices), std::move(tetrahedra), domain.kind);
+  }
   auto [vertices, triangles] =
       kept_mesh(fmt::format("unstructured{}_{}_{}_{}", static_cast<int>(mesher), hexadecimal(depth),
                             hexadecimal(h_made), hexadecimal(h_layer_made)),
-                [&] { return by_gmsh(depth, h_made, h_layer_made, mesher); });
+                domain.kind, [&] { return by_gmsh(depth, h_made, h_layer_made, mesher); });
   TriangleMesh mesh = tag_by_position(std::move(vertices), std::move(triangles));
   for (int i = 0; i < halvings; ++i) mesh = refined(mesh);
   return mesh;

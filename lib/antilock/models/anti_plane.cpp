@@ -1,6 +1,7 @@
 #include "antilock/models/anti_plane.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,15 +60,18 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
   const double size = body_size(mesh);
   for (int e = 0; mesh_has_layer && e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
-      if (mesh.edge_tag[e] == EdgeTag::sigma && std::abs(mesh.vertices(v, 1)) > slack * size)
+      if (mesh.edge_tag[e] == EdgeTag::sigma &&
+          std::abs(mesh.vertices(v, mesh.vertical())) > slack * size)
         throw Error(
             "scene and mesh: Sigma has a vertex at " + mesh.location_text(v) +
             "; accepted: Sigma on the line y = 0, or a layer that is grown along its normals");
   // (22) and (23) differ by the depth of their meshes. A second body may lie below the layer.
+  const int across = mesh.vertical();
   double lowest = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.region[t] == Region::layer)
-      for (const int v : mesh.triangles.row(t)) lowest = std::min(lowest, mesh.vertices(v, 1));
+      for (const int v : mesh.triangles.row(t))
+        lowest = std::min(lowest, mesh.vertices(v, across));
   const double wanted = -scene.layer_depth();
   const double off = slack * std::max(size, scene.layer_depth());
   if (mesh_has_layer && (lowest < wanted - off || (lowest > wanted + off && is_whole(mesh))))
@@ -185,16 +189,15 @@ void add_displacements(VariationalInequality& problem, const Scene& scene, const
   };
   if (std::none_of(scene.edges().begin(), scene.edges().end(), prescribes)) return;
   const TriangleMesh& mesh = space.mesh();
-  const Eigen::MatrixX3d nodes = space.element().support_points();
+  const ReferencePoints nodes = space.element().support_points();
   PrescribedValues values;
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < mesh.reference().facets; ++i) {
       const int e = mesh.triangle_edges(t, i);
       if (!is_dirichlet(mesh.edge_tag[e])) continue;
       for (Eigen::Index j = 0; j < nodes.rows(); ++j)
-        if (const int unknown = space.cell_dofs()(t, j); nodes(j, i) == 0)
-          values.give(unknown, mesh.edge_tag[e],
-                      dof_value(space, t, j, [&](const Eigen::RowVector2d& x) {
+        if (const int unknown = space.cell_dofs()(t, j); lies_on_facet(mesh.kind, i, nodes.row(j)))
+          values.give(unknown, mesh.edge_tag[e], dof_value(space, t, j, [&](const Position& x) {
                         return prescribed_on(scene, mesh, e, x);
                       }));
     }
@@ -248,22 +251,27 @@ void add_layer(VariationalInequality& problem, const StiffLayer& layer, const Sp
 /// The bounds on Gamma_C.
 void add_contact(VariationalInequality& problem, const UnilateralContact& contact,
                  const Space& space) {
-  const Eigen::VectorXd x = space.dof_coordinates().col(0)(space.contact_dofs());
+  const int along = space.mesh().vertical();  // 1 or 2 coordinates along the layer
   const auto dofs_of = [&](const Profile& profile) {
-    return dof_values(space, space.contact_dofs(), [&](double at, double) { return profile(at); });
+    return dof_values(space, space.contact_dofs(), [&](double x, double y, double) {
+      return along == 1 ? profile(x) : profile(x, y);
+    });
   };
   problem.bounds = Bounds::lower_on(space.contact_dofs(), -dofs_of(contact.gap));
   const Eigen::VectorXd& lower = problem.bounds.lower;
-  for (Eigen::Index i = 0; i < x.size(); ++i)
-    if (!std::isfinite(lower(i)))
-      throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    if (std::isfinite(lower(i))) continue;
+    const Position x = space.dof_coordinates().row(space.contact_dofs()[i]);
+    throw Error(fmt::format("contact: gap({:.6g}) is not finite",
+                            fmt::join(x.data(), x.data() + along, ", ")));
+  }
   if (!contact.upper_obstacle) return;
   Eigen::VectorXd& upper = problem.bounds.upper;
   upper = dofs_of(contact.upper_obstacle);
   // where two formulas say the same, the round-off of one must not put the ceiling below the
   // obstacle
   const Eigen::ArrayXd round_off = 1e-12 * lower.array().abs().max(1);
-  for (Eigen::Index i = 0; i < x.size(); ++i)
+  for (Eigen::Index i = 0; i < lower.size(); ++i)
     if (upper(i) >= lower(i) - round_off(i)) upper(i) = std::max(upper(i), lower(i));
 }
 
@@ -281,18 +289,19 @@ void add_load_and_bounds(VariationalInequality& problem, const Scene& scene, con
 
 double class_parameter(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
 
-double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e,
-                     const Eigen::RowVector2d& x) {
+double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const Position& x) {
   const int k = mesh.edge_tag[e].group;
   if (k < 0) return 0;
-  return scene.edges()[k].value(x(0),
-                                mesh.region[mesh.edge_triangles(e, 0)] == Region::layer ? 0 : x(1));
+  Eigen::Vector3d above = Eigen::Vector3d::Zero();
+  above.head(x.size()) = x.transpose();
+  if (mesh.region[mesh.edge_triangles(e, 0)] == Region::layer) above(mesh.vertical()) = 0;
+  return field_value(scene.edges()[k].value, above.transpose());
 }
 
 Eigen::VectorXd dirichlet_vertex_values(const Scene& scene, const TriangleMesh& mesh) {
   PrescribedValues given_values;
   for (int e = 0; e < mesh.edge_count(); ++e)
-    for (int end = 0; end < 2 && is_dirichlet(mesh.edge_tag[e]); ++end)
+    for (int end = 0; end < mesh.dimension() && is_dirichlet(mesh.edge_tag[e]); ++end)
       given_values.give(mesh.edges(e, end), mesh.edge_tag[e],
                         prescribed_on(scene, mesh, e, mesh.vertices.row(mesh.edges(e, end))));
   Eigen::VectorXd values = Eigen::VectorXd::Zero(mesh.vertex_count());

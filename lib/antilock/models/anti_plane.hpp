@@ -30,10 +30,9 @@ Eigen::VectorXd load_of(const Scene& scene, const Space& space);
 /// Returns the class parameter of (1), which in (23) is the square of the epsilon of [SR04].
 /// `assemble` puts it into VariationalInequality::compliance.
 double class_parameter(const StiffLayer& layer);
-/// Returns the displacement that is prescribed at the point x of the Dirichlet edge e. It is 0 on a
-/// clamped edge. On the side of a layer it is the displacement at y = 0 above x.
-double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e,
-                     const Eigen::RowVector2d& x);
+/// Returns the displacement that is prescribed at the point x of the Dirichlet facet e. It is 0 on
+/// a clamped facet. On the side of a layer it is the displacement on Sigma above x.
+double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const Position& x);
 /// Returns V values: the prescribed displacement at the ends of Dirichlet edges, and 0 elsewhere. A
 /// vertex at which groups with displacements meet has the mean of their values, whatever their
 /// order. A vertex at which such a group meets a clamped edge has the value of the group.

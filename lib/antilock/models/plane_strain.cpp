@@ -30,7 +30,7 @@ Eigen::VectorXd friction_bounds(const Profile& g, const Space& space) {
       const double here = g(point_in(mesh, t, midpoint)(0));
       if (!(here >= 0))
         throw Error(fmt::format("plane strain: friction bound {}; accepted 0 or more", here));
-      const Eigen::VectorXd share = means_on_edge(space.element(), i);
+      const Eigen::VectorXd share = means_on_facet(space.element(), i);
       for (Eigen::Index k = 0; k < share.size();
            ++k)  // an infinite g is for the unknowns on the edge alone
         if (std::abs(share(k)) > 1e-15)
@@ -97,6 +97,7 @@ void append_equations(VariationalInequality& problem, const Space& space, int fi
 
 void add_block_loading(VariationalInequality& problem, const BlockLoading& press,
                        const VectorSpace& space, const StiffnessRange* range) {
+  require_triangles(space.x.mesh(), "plane strain");
   if (!std::isfinite(press.prescribed_displacement))
     throw Error("plane strain: push is not finite");
   if (!(press.jump_weight >= 0))
@@ -129,6 +130,7 @@ void add_block_loading(VariationalInequality& problem, const BlockLoading& press
 }
 
 VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& space) {
+  require_triangles(space.x.mesh(), "plane strain");
   if (!(scene.epsilon >= 0 && scene.epsilon <= 1))
     throw Error(
         fmt::format("plane strain: epsilon = 1/lambda = {}; accepted 0 to 1", scene.epsilon));
@@ -147,6 +149,7 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
 }
 
 TriangleMesh with_free_sides(TriangleMesh mesh) {
+  require_triangles(mesh, "free sides");
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const double x0 = mesh.vertices(mesh.edges(e, 0), 0), x1 = mesh.vertices(mesh.edges(e, 1), 0);
     if (mesh.edge_triangles(e, 1) < 0 && x0 == x1 && (x0 == 0 || x0 == 1))

@@ -182,10 +182,10 @@ auto named(const Section& section, const std::string& key,
   };
 }
 Field field(const Section& section, const std::string& key) {
-  return named(section, key, {"x", "y"});
+  return [f = named(section, key, {"x", "y"})](double x, double y) { return f(x, y); };
 }
 Profile profile(const Section& section, const std::string& key) {
-  return named(section, key, {"x"});
+  return [f = named(section, key, {"x"})](double x) { return f(x); };
 }
 /// The same where negative values are refused, and 0 unless `zero_too`.
 Field field_above(const Field& f, const std::string& where, bool zero_too) {

@@ -179,6 +179,7 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file, const Geometry& geometry)
   const Scene& scene = scene_file.scene;
   const std::string path = scene_file.mesh.file.string();
   TriangleMesh mesh = read_msh(path, scene_file.groups);
+  require_triangles(mesh, path.c_str());
   const double depth = scene.layer_depth();
   const auto layered = [&] {
     return std::count(mesh.region.begin(), mesh.region.end(), Region::layer) > 0;

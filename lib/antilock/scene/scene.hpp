@@ -2,6 +2,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -9,9 +11,60 @@
 
 namespace antilock {
 
-using Field = std::function<double(double x, double y)>;  ///< a scalar field (dimensionless)
-/// A function on the line y = const (dimensionless).
-using Profile = std::function<double(double x)>;
+/// A function that may be empty: a pointer, or an object such as std::function. A lambda never is,
+/// and compilers warn where it is asked.
+template <class Function>
+concept MayBeEmpty = std::is_pointer_v<Function> || requires(const Function& f) {
+  f.operator bool();
+};
+
+/// A scalar field (dimensionless): a function of x, of x and y, or of x, y and z. It does not
+/// depend on the coordinates that its function does not take. In the plane z is 0. A function that
+/// can be called with different numbers of coordinates is one of x and y.
+class Field {
+ public:
+  Field() = default;
+  template <class Function>
+  requires(!std::is_same_v<Function, Field> &&
+           (std::is_invocable_r_v<double, Function&, double, double> ||
+            std::is_invocable_r_v<double, Function&, double, double, double> ||
+            std::is_invocable_r_v<double, Function&, double>)) Field(Function f) {
+    if constexpr (MayBeEmpty<Function>)
+      if (!f) return;  // an empty function is an empty field
+    if constexpr (std::is_invocable_r_v<double, Function&, double, double>)
+      value_ = OfPlane<Function>{std::move(f)};
+    else if constexpr (std::is_invocable_r_v<double, Function&, double, double, double>)
+      value_ = std::move(f);
+    else
+      value_ = OfLine<Function>{std::move(f)};
+  }
+  double operator()(double x, double y = 0, double z = 0) const { return value_(x, y, z); }
+  explicit operator bool() const { return static_cast<bool>(value_); }
+  /// Returns the function from which the field was made, if it is of this type, and a null pointer
+  /// else.
+  template <class Function>
+  const Function* target() const {
+    if (const auto* of_plane = value_.template target<OfPlane<Function>>()) return &of_plane->f;
+    if (const auto* of_line = value_.template target<OfLine<Function>>()) return &of_line->f;
+    return value_.template target<Function>();
+  }
+
+ private:
+  template <class Function>
+  struct OfPlane {
+    Function f;
+    double operator()(double x, double y, double) { return f(x, y); }
+  };
+  template <class Function>
+  struct OfLine {
+    Function f;
+    double operator()(double x, double, double) { return f(x); }
+  };
+  std::function<double(double, double, double)> value_;
+};
+/// A function on a boundary y = const (dimensionless): a function of x. In space the boundary is
+/// z = const, and the function is one of x and y.
+using Profile = Field;
 
 /// The elastic body Omega+ = (0,1) x (0,1) under the body force f of (21) of [SR04], which is cited
 /// in problem/variational_inequality.hpp. It is clamped on its sides and its top. A mesh file may
@@ -62,7 +115,8 @@ using Layer = std::variant<NoLayer, StiffLayer, VentcelLayer, ThinLayer>;
 /// Signorini contact on Gamma_C, the bottom of the layer or, without a layer, Sigma. It is the last
 /// line of (21): u >= -gap, pressure >= 0, and one of the two is an equality.
 struct UnilateralContact {
-  /// The distance of the obstacle at x. A negative one presses the obstacle into the body.
+  /// The distance of the obstacle at x, in space at (x, y). A negative one presses the obstacle
+  /// into the body.
   Profile gap = [](double) { return 0.0; };
   /// The x at which u = 0 is prescribed at the ends of Gamma_C. There gap and upper_obstacle must
   /// be >= 0.

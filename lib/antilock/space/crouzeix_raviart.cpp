@@ -1,5 +1,6 @@
-// Crouzeix-Raviart, Section 4.2: affine on each triangle, continuous at the edge midpoints only,
-// where its unknowns sit.
+// Crouzeix-Raviart, Section 4.2: affine on each simplex, continuous at the centroids of the facets
+// only, where its unknowns sit. On triangles these are the edge midpoints.
+#include "antilock/core/error.hpp"
 #include "antilock/space/element.hpp"
 
 namespace antilock {
@@ -7,31 +8,39 @@ namespace {
 
 class CrouzeixRaviart final : public Element {
  public:
+  explicit CrouzeixRaviart(CellKind kind) : Element(kind), d_(reference_cell(kind).dimension) {}
   std::string name() const override { return "CR"; }
   int degree() const override { return 1; }
   bool conforming() const override { return false; }
   int dofs_per_vertex() const override { return 0; }
-  int dofs_per_edge() const override { return 1; }
+  int dofs_per_edge() const override { return kind() == CellKind::triangle ? 1 : 0; }
+  int dofs_per_face() const override { return 1; }
   int dofs_per_cell() const override { return 0; }
-  Eigen::MatrixX3d support_points() const override {
-    return 0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity());
+  ReferencePoints support_points() const override {
+    const ReferencePoints vertices = ReferencePoints::Identity(dofs(), dofs());
+    return (1.0 / d_) * (ReferencePoints::Ones(dofs(), dofs()) - vertices);
   }
 
-  // phi_i = 1 - 2 lambda_i: 1 on edge i, where lambda_i = 0; -1 at the opposite vertex; 0 at the
-  // other midpoints
-  Eigen::VectorXd basis(const Eigen::Vector3d& lambda) const override {
-    return (1 - 2 * lambda.array()).matrix();
+  // phi_i = 1 - d lambda_i: 1 on facet i, where lambda_i = 0; 1 - d at the opposite vertex; 0 at
+  // the other centroids
+  Eigen::VectorXd basis(const ReferencePoint& lambda) const override {
+    return (1 - d_ * lambda.array()).matrix();
   }
-  Eigen::MatrixX3d derivative(const Eigen::Vector3d&) const override {
-    return -2 * Eigen::Matrix3d::Identity();
+  ReferencePoints derivative(const ReferencePoint&) const override {
+    return -d_ * ReferencePoints::Identity(dofs(), dofs());
   }
+
+ private:
+  double d_;  ///< the dimension of the cell
 };
 
 }  // namespace
 
-const Element& crouzeix_raviart() {
-  static const CrouzeixRaviart instance;
-  return instance;
+const Element& crouzeix_raviart(CellKind kind) {
+  static const CrouzeixRaviart on_triangles(CellKind::triangle);
+  static const CrouzeixRaviart on_tetrahedra(CellKind::tetrahedron);
+  if (!reference_cell(kind).simplex) throw Error("element: CR on a quadrilateral; accepted: Q1");
+  return kind == CellKind::triangle ? on_triangles : on_tetrahedra;
 }
 
 }  // namespace antilock

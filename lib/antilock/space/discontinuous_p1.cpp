@@ -14,11 +14,11 @@ class DiscontinuousP1 final : public Element {
   int dofs_per_vertex() const override { return 0; }
   int dofs_per_edge() const override { return 0; }
   int dofs_per_cell() const override { return 3; }
-  Eigen::MatrixX3d support_points() const override { return crouzeix_raviart().support_points(); }
-  Eigen::VectorXd basis(const Eigen::Vector3d& lambda) const override {
+  ReferencePoints support_points() const override { return crouzeix_raviart().support_points(); }
+  Eigen::VectorXd basis(const ReferencePoint& lambda) const override {
     return crouzeix_raviart().basis(lambda);
   }
-  Eigen::MatrixX3d derivative(const Eigen::Vector3d& lambda) const override {
+  ReferencePoints derivative(const ReferencePoint& lambda) const override {
     return crouzeix_raviart().derivative(lambda);
   }
 };

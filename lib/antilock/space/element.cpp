@@ -5,15 +5,25 @@
 
 namespace antilock {
 
-Eigen::VectorXd means_on_edge(const Element& element, int i) {
-  const auto [places, weights] = gauss_rule(element.degree() / 2 + 1);
+Eigen::VectorXd means_on_facet(const Element& element, int i) {
+  const Quadrature rule = facet_rule(element.kind(), element.degree());
   Eigen::VectorXd means = Eigen::VectorXd::Zero(element.dofs());
-  for (Eigen::Index q = 0; q < places.size(); ++q)
-    means += weights(q) * element.basis(on_edge(i, places(q)));
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+    means += rule.weights(q) * element.basis(on_facet(element.kind(), i, rule.points.row(q)));
   return means;
 }
 
-const Element& element(const std::string& name) {
+const Element& element(const std::string& name, CellKind kind) {
+  if (kind == CellKind::quadrilateral) {
+    if (name == q1().name()) return q1();
+    throw Error("element: \"" + name + "\" is unknown on quadrilaterals; accepted \"Q1\"");
+  }
+  if (kind == CellKind::tetrahedron) {
+    for (const Element* candidate : {&p1(kind), &p2(kind), &crouzeix_raviart(kind)})
+      if (candidate->name() == name) return *candidate;
+    throw Error("element: \"" + name +
+                "\" is unknown on tetrahedra; accepted \"P1\", \"P2\" and \"CR\"");
+  }
   for (int degree = 1; degree <= 6; ++degree)
     if (lagrange(degree).name() == name) return lagrange(degree);
   for (const Element* candidate : {&crouzeix_raviart(), &p1_bubble(), &hybrid_bdm1()})

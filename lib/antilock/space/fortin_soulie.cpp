@@ -28,10 +28,10 @@ class FortinSoulie final : public Element {
   int dofs_per_vertex() const override { return 0; }
   int dofs_per_edge() const override { return 2; }
   int dofs_per_cell() const override { return 1; }
-  Eigen::MatrixX3d support_points() const override { return hybrid_bdm1().support_points(); }
+  ReferencePoints support_points() const override { return hybrid_bdm1().support_points(); }
   DofFunctional functional(int i) const override { return hybrid_bdm1().functional(i); }
-  Eigen::VectorXd basis(const Eigen::Vector3d& l) const override { return hybrid_bdm1().basis(l); }
-  Eigen::MatrixX3d derivative(const Eigen::Vector3d& l) const override {
+  Eigen::VectorXd basis(const ReferencePoint& l) const override { return hybrid_bdm1().basis(l); }
+  ReferencePoints derivative(const ReferencePoint& l) const override {
     return hybrid_bdm1().derivative(l);
   }
   Eigen::VectorXd equation() const override { return Eigen::VectorXd{{-1, 1, -1, 1, -1, 1, 0}}; }

@@ -38,7 +38,7 @@ class HybridBdm1 final : public Element {
 
   // The mean of an affine function with the weight 2 lambda_{j+1} is its value at one third of the
   // edge.
-  Eigen::MatrixX3d support_points() const override {
+  ReferencePoints support_points() const override {
     Eigen::MatrixX3d points(7, 3);
     points << 0, 2, 1,  //
         0, 1, 2,        //
@@ -52,7 +52,7 @@ class HybridBdm1 final : public Element {
 
   DofFunctional functional(int i) const override { return i < 6 ? hat_mean(i / 2, i % 2) : mean(); }
 
-  Eigen::VectorXd basis(const Eigen::Vector3d& l) const override {
+  Eigen::VectorXd basis(const ReferencePoint& l) const override {
     const double cubic = (l(0) - l(1)) * (l(1) - l(2)) * (l(2) - l(0));
     Eigen::VectorXd phi(7);
     for (int j = 0; j < 3; ++j) {
@@ -67,7 +67,7 @@ class HybridBdm1 final : public Element {
 
   // G v = 6 sum_j [ (v_T - (a-_j + a+_j) / 2) (1 - 2 l_j) + (a+_j - a-_j) (l_{j+1} - l_{j+2}) ]
   // grad l_j
-  Eigen::MatrixX3d derivative(const Eigen::Vector3d& l) const override {
+  ReferencePoints derivative(const ReferencePoint& l) const override {
     Eigen::MatrixX3d d = Eigen::MatrixX3d::Zero(7, 3);
     for (int j = 0; j < 3; ++j) {
       const double even = 1 - 2 * l(j);
@@ -84,7 +84,7 @@ class HybridBdm1 final : public Element {
   /// (end 1). Four Gauss points are exact for v of degree 6.
   static DofFunctional hat_mean(int j, int end) {
     const auto [places, weights] = gauss_rule(4);
-    DofFunctional functional{Eigen::MatrixX3d(places.size(), 3), Eigen::VectorXd(places.size())};
+    DofFunctional functional{ReferencePoints(places.size(), 3), Eigen::VectorXd(places.size())};
     for (Eigen::Index q = 0; q < places.size(); ++q) {
       const double hat = end == 0 ? 1 - places(q) : places(q);
       functional.points.row(q) = on_edge(j, places(q)).transpose();

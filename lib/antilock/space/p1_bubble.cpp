@@ -15,18 +15,20 @@ class P1Bubble final : public Element {
   int dofs_per_vertex() const override { return 1; }
   int dofs_per_edge() const override { return 0; }
   int dofs_per_cell() const override { return 1; }
-  Eigen::MatrixX3d support_points() const override {
+  ReferencePoints support_points() const override {
     Eigen::MatrixX3d n(4, 3);
     n << Eigen::Matrix3d::Identity(), Eigen::RowVector3d::Constant(1.0 / 3);
     return n;
   }
 
   // centroid: b = 27 lambda_0 lambda_1 lambda_2; vertex i: lambda_i - b/3, 0 at the centroid
-  Eigen::VectorXd basis(const Eigen::Vector3d& l) const override {
+  Eigen::VectorXd basis(const ReferencePoint& xi) const override {
+    const Eigen::Vector3d l = xi;
     const double b = 27 * l.prod();
     return Eigen::Vector4d(l(0) - b / 3, l(1) - b / 3, l(2) - b / 3, b);
   }
-  Eigen::MatrixX3d derivative(const Eigen::Vector3d& l) const override {
+  ReferencePoints derivative(const ReferencePoint& xi) const override {
+    const Eigen::Vector3d l = xi;
     const Eigen::RowVector3d b = 27 * Eigen::RowVector3d(l(1) * l(2), l(2) * l(0), l(0) * l(1));
     Eigen::MatrixX3d d(4, 3);
     d << Eigen::Matrix3d::Identity().rowwise() - b / 3, b;

@@ -517,6 +517,7 @@ int estimate(int argc, char** argv) {
     check_not_an_input(written, {request.scene, request.mesh, request.answer});
   require_paper_problem(file, argv[0]);
   const TriangleMesh mesh = read_msh(request.mesh.string());
+  require_triangles(mesh, request.mesh.c_str());
   const std::string answer = request.answer.string();
   const Eigen::MatrixXd rows = read_csv(answer, {"x", "y", "u"});
   ReadAnswer read;

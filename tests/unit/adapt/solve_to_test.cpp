@@ -39,8 +39,7 @@ TEST(Bisection, KeepsAreasTagsVerticesAndShapes) {
     for (int level = 0; level < 8; ++level) {
       std::vector<bool> marks(mesh.triangle_count());
       for (int t = 0; t < mesh.triangle_count(); ++t) marks[t] = random() % 8 == 0;
-      const TriangleMesh finer =
-          bisected(mesh, marks);  // make_triangle_mesh checks that it conforms
+      const TriangleMesh finer = bisected(mesh, marks);  // make_mesh checks that it conforms
       EXPECT_EQ(finer.vertices.topRows(mesh.vertex_count()), mesh.vertices) << name;
       mesh = finer;
       for (const Region region : {Region::body, Region::layer})

@@ -111,6 +111,41 @@ TEST(WriteVtu, P1SharesItsVerticesAndCrouzeixRaviartKeepsItsJumps) {
   }
 }
 
+TEST(WriteVtu, WritesTetrahedraAndQuadrilaterals) {
+  const TemporaryFolder folder;
+  constexpr int vtk_quad = 9, vtk_tetra = 10;
+  for (const CellKind kind : {CellKind::quadrilateral, CellKind::tetrahedron}) {
+    const bool in_space = kind == CellKind::tetrahedron;
+    const Mesh mesh = structured_mesh(2, {1, kind});
+    std::vector<const Element*> elements{&q1()};
+    if (in_space) elements = {&p1(kind), &p2(kind), &crouzeix_raviart(kind)};
+    for (const Element* element : elements) {
+      const Space space(mesh, *element);
+      // u = x - 2 y (+ 3 z): its values at the points of the file are those of the formula
+      const auto formula = [](double x, double y, double z) { return x - 2 * y + 3 * z; };
+      write_vtu(folder / "u.vtu", space, dof_values(space, formula));
+      const std::string text = contents(folder / "u.vtu");
+      EXPECT_TRUE(well_formed(text));
+      const auto value = vtu_array(text, "u"), point = vtu_array(text, "points"),
+                 corner = vtu_array(text, "connectivity"), type = vtu_array(text, "types");
+      const auto cells = static_cast<std::size_t>(mesh.triangle_count());
+      EXPECT_EQ(type, std::vector<double>(cells, in_space ? vtk_tetra : vtk_quad));
+      ASSERT_EQ(point.size(), 3 * value.size());
+      ASSERT_EQ(corner.size(), 4 * cells);
+      for (std::size_t k = 0; k < value.size(); ++k)
+        EXPECT_NEAR(value[k], formula(point[3 * k], point[3 * k + 1], point[3 * k + 2]), 1e-14);
+      for (std::size_t t = 0; t < cells; ++t)
+        for (int i = 0; i < 4; ++i) {
+          const auto p = static_cast<std::size_t>(corner[4 * t + static_cast<std::size_t>(i)]);
+          const Eigen::RowVectorXd vertex =
+              mesh.vertices.row(mesh.triangles(static_cast<Eigen::Index>(t), i));
+          for (int k = 0; k < mesh.dimension(); ++k)
+            EXPECT_EQ(point[3 * p + static_cast<std::size_t>(k)], vertex(k));
+        }
+    }
+  }
+}
+
 TEST(WriteDeformedVtu, MovesEveryTriangleWithItsUnknowns) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = structured_mesh(3, Domain{0});

@@ -185,4 +185,38 @@ TEST(ExtrudedLayer, RefusesWhatItCannotStandUnder) {
   expect_refused([] { layered_mesh(0); }, "cells = 0");
 }
 
+// A cube whose side x = 0 is held by a group, and whose other sides are free by another one.
+TEST(ExtrudedLayer, TakesOverTheConditionsBesideSigmaInSpace) {
+  Mesh body = unstructured_mesh(3, {0, CellKind::tetrahedron});
+  for (int e = 0; e < body.edge_count(); ++e) {
+    if (body.edge_tag[e] != EdgeTag::clamped) continue;
+    double farthest = 0;
+    for (const int v : body.edges.row(e)) farthest = std::max(farthest, body.vertices(v, 0));
+    body.edge_tag[e] = farthest == 0 ? dirichlet_group(0) : natural_group(1);
+  }
+  for (const double epsilon : {0.0, 1.0}) {
+    const Mesh mesh = extruded(body, epsilon);
+    const auto area_of = [&](EdgeTag tag) {
+      double area = 0;
+      for (int e = 0; e < mesh.edge_count(); ++e)
+        if (mesh.edge_tag[e] == tag) area += mesh.facet_measure(e);
+      return area;
+    };
+    double volume = 0;
+    for (int t = 0; t < mesh.triangle_count(); ++t)
+      if (mesh.region[t] == Region::layer) volume += mesh.measure(t);
+    EXPECT_NEAR(volume, 1, 1e-13) << epsilon;
+    EXPECT_NEAR(area_of(dirichlet_group(0)), 2, 1e-13) << epsilon;  // beside body and layer
+    EXPECT_NEAR(area_of(natural_group(1)), 4, 1e-13) << epsilon;
+    EXPECT_NEAR(area_of(EdgeTag::free), 3, 1e-13) << epsilon;
+    EXPECT_NEAR(area_of(EdgeTag::sigma), 1, 1e-13) << epsilon;
+    EXPECT_NEAR(area_of(EdgeTag::contact), 1, 1e-13) << epsilon;
+  }
+  expect_refused(
+      [] {
+        extruded(structured_mesh(2, {0, CellKind::quadrilateral}), 1);
+      },
+      "accepted: triangles and tetrahedra");
+}
+
 }  // namespace antilock::test::mesh_test::layered_test

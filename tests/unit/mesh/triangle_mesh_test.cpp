@@ -1,4 +1,4 @@
-// make_triangle_mesh lets nothing through that a finite element relies on and that is not so.
+// make_mesh lets nothing through that a finite element relies on and that is not so.
 #include <set>
 
 #include "antilock/mesh/labelled_edges.hpp"
@@ -8,7 +8,7 @@
 
 namespace antilock::test::mesh_test::triangle_mesh_test {
 
-/// What make_triangle_mesh is given; the default is two triangles on the unit square, contact
+/// What make_mesh is given; the default is two triangles on the unit square, contact
 /// below.
 struct Input {
   Points vertices{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -19,9 +19,7 @@ struct Input {
                                  {2, 3, EdgeTag::clamped},
                                  {3, 0, EdgeTag::clamped}};
 
-  TriangleMesh make() const {
-    return make_triangle_mesh(vertices, triangles, region, tagged, "input");
-  }
+  TriangleMesh make() const { return make_mesh(vertices, triangles, region, tagged, "input"); }
   void refused(const std::string& words) const {
     expect_refused([&] { make(); }, words);
     expect_refused([&] { make(); }, "input: ");  // every message says where

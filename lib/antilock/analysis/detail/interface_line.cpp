@@ -83,7 +83,8 @@ EdgeBasis edge_basis(const Element& element, const Eigen::VectorXd& s) {
     const Eigen::Vector3d lambda(0, 1 - s(q), s(q));
     const Eigen::Vector3d lambda_slope(0, -1, 1);
     basis.value.row(q) = element.basis(lambda)(on_edge);
-    basis.slope.row(q) = (element.derivative(lambda) * lambda_slope)(on_edge);
+    const Eigen::MatrixX3d derivative = element.derivative(lambda);
+    basis.slope.row(q) = (derivative * lambda_slope)(on_edge);
   }
   return basis;
 }

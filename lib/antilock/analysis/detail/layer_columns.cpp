@@ -120,8 +120,8 @@ SparseMatrix layer_form_at(const InterfaceLine& sigma, const Space& space,
     if (mesh.region[t] == Region::body || !has_corner_on(sigma, mesh, t)) continue;
     const auto dofs = space.cell_dofs().row(t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::MatrixX2d gradient =
-          space.element().derivative(rule.points.row(q)) * barycentric_gradients(mesh, t);
+      const Eigen::MatrixX3d derivative = space.element().derivative(rule.points.row(q));
+      const Eigen::MatrixX2d gradient = derivative * barycentric_gradients(mesh, t);
       const Eigen::MatrixXd local = gradient *
                                     (rule.weights(q) * mesh.area(t) * stiffness).asDiagonal() *
                                     gradient.transpose();

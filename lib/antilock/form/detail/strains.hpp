@@ -12,6 +12,7 @@ class Gradients {
  public:
   Gradients(const VectorSpace& space, const Quadrature& rule)
       : space_(space), m_(space.x.element().dofs()), n_(space.y.element().dofs()) {
+    require_triangles(space.x.mesh(), "strains");
     for (const Space* part : {&space.x, &space.y})
       if (!part->element().nodal() && part->element().equation().size() == 0)
         throw Error("strains: element " + part->element().name() +

@@ -208,23 +208,30 @@ void GmshSession::keep_geometry_options() {
   }
 }
 
-int GmshSession::add_point(double x, double y, double size) const {
-  return call<decltype(gmshModelGeoAddPoint)>("gmshModelGeoAddPoint", x, y, 0, size, -1);
+int GmshSession::add_point(double x, double y, double size, double z) const {
+  return call<decltype(gmshModelGeoAddPoint)>("gmshModelGeoAddPoint", x, y, z, size, -1);
 }
 
 int GmshSession::add_line(int from, int to) const {
   return call<decltype(gmshModelGeoAddLine)>("gmshModelGeoAddLine", from, to, -1);
 }
 
-void GmshSession::add_surface(std::array<int, 4> lines) const {
+int GmshSession::add_surface(std::array<int, 4> lines) const {
   int loop = call<decltype(gmshModelGeoAddCurveLoop)>("gmshModelGeoAddCurveLoop", lines.data(),
                                                       lines.size(), -1, 0);
-  call<decltype(gmshModelGeoAddPlaneSurface)>("gmshModelGeoAddPlaneSurface", &loop, 1, -1);
+  return call<decltype(gmshModelGeoAddPlaneSurface)>("gmshModelGeoAddPlaneSurface", &loop, 1, -1);
 }
 
-std::pair<Points, Triples> GmshSession::generate() const {
+void GmshSession::add_volume(std::array<int, 6> surfaces) const {
+  int loop = call<decltype(gmshModelGeoAddSurfaceLoop)>("gmshModelGeoAddSurfaceLoop",
+                                                        surfaces.data(), surfaces.size(), -1);
+  call<decltype(gmshModelGeoAddVolume)>("gmshModelGeoAddVolume", &loop, 1, -1);
+}
+
+std::pair<Points, IndexRows> GmshSession::generate(CellKind kind) const {
+  const ReferenceCell& cell = reference_cell(kind);
   call<decltype(gmshModelGeoSynchronize)>("gmshModelGeoSynchronize");
-  call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
+  call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", cell.dimension);
   std::size_t *tags = nullptr, *elements = nullptr, *nodes = nullptr;
   double *coordinates = nullptr, *parameters = nullptr;
   std::size_t tag_count = 0, coordinate_count = 0, parameter_count = 0, element_count = 0,
@@ -233,20 +240,20 @@ std::pair<Points, Triples> GmshSession::generate() const {
                                         &coordinate_count, &parameters, &parameter_count,
                                         /*dim: all*/ -1, -1, 0, 0);
   if (parameters != nullptr) free_by_gmsh(parameters);
-  constexpr int of_three_nodes = 2;
-  call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", of_three_nodes,
-                                                 &elements, &element_count, &nodes, &node_count,
-                                                 /*tag: all*/ -1, /*task*/ 0,
-                                                 /*numTasks*/ 1);
+  constexpr int triangles = 2, tetrahedra = 4;  // gmsh's own numbers
+  call<decltype(gmshModelMeshGetElementsByType)>(
+      "gmshModelMeshGetElementsByType", kind == CellKind::triangle ? triangles : tetrahedra,
+      &elements, &element_count, &nodes, &node_count, /*tag: all*/ -1, /*task*/ 0, /*numTasks*/ 1);
   free_by_gmsh(elements);
   const std::vector<double> xyz = taken(coordinates, coordinate_count);
   const std::vector<std::size_t> corners = taken(nodes, node_count);
   std::unordered_map<std::size_t, int> number;
   for (const std::size_t tag : taken(tags, tag_count))
     number.emplace(tag, static_cast<int>(number.size()));
-  std::pair<Points, Triples> made{Points(number.size(), 2), Triples(corners.size() / 3, 3)};
+  std::pair<Points, IndexRows> made{Points(number.size(), cell.dimension),
+                                    IndexRows(corners.size() / cell.vertices, cell.vertices)};
   for (Eigen::Index v = 0; v < made.first.rows(); ++v)
-    made.first.row(v) << xyz[3 * v], xyz[3 * v + 1];
+    for (int k = 0; k < cell.dimension; ++k) made.first(v, k) = xyz[3 * v + k];
   std::transform(corners.begin(), corners.end(), made.second.data(),
                  [&](std::size_t tag) { return number.at(tag); });
   return made;

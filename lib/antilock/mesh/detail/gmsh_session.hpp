@@ -46,15 +46,18 @@ class GmshSession {
   }
 
   void set(const char* option, double value);
-  /// Adds a point at (x, y) around which edges are `size` long. Returns its tag.
-  int add_point(double x, double y, double size) const;
+  /// Adds a point at (x, y, z) around which edges are `size` long. Returns its tag.
+  int add_point(double x, double y, double size, double z = 0) const;
   /// Adds a line between two points. Returns its tag.
   int add_line(int from, int to) const;
   /// Adds a plane surface inside four lines that follow each other; a line in the opposite
-  /// direction is given as -line.
-  void add_surface(std::array<int, 4> lines) const;
-  /// Makes the triangles of the geometry, surface by surface. Returns their vertices and corners.
-  std::pair<Points, Triples> generate() const;
+  /// direction is given as -line. Returns its tag.
+  int add_surface(std::array<int, 4> lines) const;
+  /// Adds the volume inside six surfaces.
+  void add_volume(std::array<int, 6> surfaces) const;
+  /// Makes the triangles of the geometry, surface by surface, or its tetrahedra, volume by volume.
+  /// Returns their vertices and corners.
+  std::pair<Points, IndexRows> generate(CellKind kind = CellKind::triangle) const;
 
   /// Returns the tags of the curves of a geometry. Throws Error where gmsh cannot read it.
   std::vector<int> read_curves(const Geometry& geometry);
