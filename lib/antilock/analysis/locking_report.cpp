@@ -21,6 +21,13 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
     return LockingReport{
         element.name() +
         " does not lock: a motion without strain per layer triangle, on any mesh (Theorem 4)"};
+  if (!mesh.reference().simplex)
+    return LockingReport{"nothing is known of locking on quadrilaterals"};
+  const bool in_space = mesh.dimension() == 3;
+  if (!element.conforming() && in_space)
+    return LockingReport{element.name() +
+                         ": about one motion without strain per layer tetrahedron, on any mesh; "
+                         "that it does not lock is measured, not proved"};
   if (!element.conforming())
     return LockingReport{
         element.name() +
@@ -31,10 +38,20 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
                          " does not lock here: the columns of the layer are free of each other"};
   LockingReport report;
   report.diagnosis = fmt::format(
-      "below {} edges of Sigma the layer's triangles are tied into {} group{} by edges that are "
-      "not vertical; without strain {} is one polynomial of degree {} in x on each",
-      std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma), components.count,
-      components.count == 1 ? "" : "s", element.name(), element.degree());
+      "below {} {} of Sigma the layer's {} are tied into {} group{} by {} that are not vertical; "
+      "without strain {} is one polynomial of degree {} in {} on each",
+      std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma),
+      in_space ? "faces" : "edges", mesh.reference().plural, components.count,
+      components.count == 1 ? "" : "s", in_space ? "faces" : "edges", element.name(),
+      element.degree(), in_space ? "x and y" : "x");
+  if (in_space) {
+    report.diagnosis += "; nothing is known of what it costs on tetrahedra";
+    report.warning =
+        element.name() +
+        " may lock in this layer, since its tetrahedra are tied to each other; remedy: "
+        "CR, or a layer in columns (layered_mesh)";
+    return report;
+  }
   LockingLoss energy;
   try {
     energy = locking_loss(scene, result);

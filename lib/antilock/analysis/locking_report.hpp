@@ -15,6 +15,9 @@ namespace antilock {
 /// - The warning says "proved" and gives the share of the lower bound if this share, too, is at
 ///   least `significance`. Otherwise it gives the estimate, and `lost` is empty.
 ///
+/// On tetrahedra the loss is not measured. The report then warns of each mesh that is not aligned,
+/// and has no number. On quadrilaterals nothing is known.
+///
 /// It does not throw Error where locking_loss does. The diagnosis then says why there is no number.
 /// Section 10 of tutorials/guides/locking_loss.md lists all cases.
 std::optional<LockingReport> report_locking(const Scene& scene, const Result& result);
