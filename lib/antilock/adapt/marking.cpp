@@ -164,6 +164,7 @@ AdaptiveMesh refine_marked(const AdaptiveMesh& last, RefinementStrategy strategy
 }
 
 std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangles) {
+  require_triangles(mesh, "resolution of a load");
   constexpr int most_rounds = 16;
   LoadSampler sampler(load);
   for (int round = 0;; ++round) {

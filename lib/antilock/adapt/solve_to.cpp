@@ -333,6 +333,7 @@ void require_goal_in_reach(const Scene& scene, const Level& level, const Accurac
 CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first,
                            const AccuracyGoal& accuracy,
                            const std::function<void(const RefinementLevel&)>& progress) {
+  require_triangles(first, "accuracy");
   check_request(accuracy);
   if (first.curved())
     throw Error(

@@ -13,6 +13,7 @@
 
 namespace antilock {
 double bending_length(const TriangleMesh& mesh, int triangle) {
+  require_triangles(mesh, "bending length");
   const auto x = [&](int corner) { return mesh.vertices(mesh.triangles(triangle, corner % 3), 0); };
   double product = 1;
   for (int i = 0; i < 3; ++i) product *= std::abs(x(i) - x(i + 1));

@@ -69,6 +69,7 @@ double kolmogorov_width(int n) {
 
 ErrorForm::ErrorForm(const Space& space, LoadModes modes)
     : space_(space), modes_(std::move(modes)) {
+  require_triangles(space.mesh(), "error form");
   if (!space.element().conforming() && &space.element() != &crouzeix_raviart())
     throw Error("error form: element " + space.element().name() +
                 "; accepted: conforming ones and CR");

@@ -12,6 +12,7 @@
 namespace antilock {
 
 EnergyBounds energy_bounds(const Scene& scene, const TriangleMesh& mesh) {
+  require_triangles(mesh, "energy bounds");
   const Space conforming(mesh, p1()), nonconforming(conforming, crouzeix_raviart());
   Result result{nonconforming, assemble(scene, nonconforming)};
   result.solution = active_set(result.problem);

@@ -8,6 +8,7 @@ namespace antilock {
 
 ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux,
                          const ConformingCompanion& v, const ExactTable& exact_solution) {
+  require_triangles(mesh, "errors of a certificate");
   const Quadrature& rule = triangle_rule(8);
   double cr = 0, balanced = 0, conforming = 0, middle = 0;
   const auto exact = [&](const Eigen::Vector2d& x, bool layer) {

@@ -112,6 +112,7 @@ namespace {
 template <class Act>
 void at_steps(const VectorSpace& space, bool clamped_in_x, Act&& act) {
   const TriangleMesh& mesh = space.x.mesh();
+  require_triangles(mesh, "jumps of a displacement");
   for (const auto& [part, first] :
        {std::pair<const Space*, int>{&space.x, 0}, {&space.y, space.x.size()}}) {
     if (part->element().conforming()) continue;           // no steps

@@ -62,6 +62,7 @@ FactoredForm project_strain(const FactoredForm& form, const StrainProjection& pr
 
 StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& form, double width,
                                 double height) {
+  require_triangles(mesh, "box_projection");
   for (const double length : {width, height})
     if (!(length > 0 && std::isfinite(length)))
       throw Error(fmt::format("box_projection: a box of {} x {}; accepted: positive lengths", width,
@@ -93,6 +94,7 @@ StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& fo
 
 StrainProjection vertex_projection(const TriangleMesh& mesh, const FactoredForm& form,
                                    const Quadrature& rule) {
+  require_triangles(mesh, "vertex_projection");
   check_cells(mesh, form);
   const auto points = static_cast<std::size_t>(rule.weights.size());
   std::vector<int> mean(mesh.vertex_count(), -1);

@@ -10,6 +10,7 @@
 namespace antilock {
 
 VariationalInequality assemble(const Coating& coating, const VectorSpace& space) {
+  require_triangles(space.x.mesh(), "coating");
   const double t = coating.thickness;
   if (!(t >= 0 && t <= 1)) throw Error(fmt::format("coating: thickness {}; accepted 0 to 1", t));
   for (const Lame& material : {coating.body, coating.layer})
@@ -58,6 +59,7 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
 
 Eigen::VectorXd pressure(const Coating& coating, const VectorSpace& space, const Eigen::VectorXd& u,
                          const Eigen::VectorXd& p) {
+  require_triangles(space.x.mesh(), "coating");
   const TriangleMesh& mesh = space.x.mesh();
   const auto& [lambda, mu] = coating.body;
   const FactoredForm body =

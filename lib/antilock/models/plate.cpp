@@ -73,6 +73,7 @@ void require_rim_above(const Plate& plate, const TriangleMesh& mesh) {
 }  // namespace
 
 VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
+  require_triangles(space.mesh(), "plate");
   if (!(plate.thickness >= 0 && plate.thickness <= 1))
     throw Error(fmt::format("plate: thickness = {}; accepted 0 to 1", plate.thickness));
   if (!(plate.poisson >= 0 && plate.poisson < 1))

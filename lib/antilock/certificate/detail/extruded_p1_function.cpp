@@ -7,6 +7,7 @@ namespace antilock {
 
 ExtrudedP1Function::ExtrudedP1Function(TriangleMesh mesh, Eigen::VectorXd v, Eigen::VectorXd p)
     : mesh_(std::move(mesh)), v_(std::move(v)), p_(std::move(p)) {
+  require_triangles(mesh_, "P1 function on columns");
   const auto begin = std::find(mesh_.region.begin(), mesh_.region.end(), Region::layer);
   first_ = static_cast<int>(begin - mesh_.region.begin());
   // extruded() puts the triangles of a column one after the other, from Sigma down: left and right

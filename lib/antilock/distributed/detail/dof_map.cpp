@@ -24,6 +24,7 @@ Vector view(const Eigen::VectorXd& values) {
 }  // namespace
 
 DofMap::DofMap(const Space& space) {
+  require_triangles(space.mesh(), "unknowns of all ranks");
   const TriangleMesh& mesh = space.mesh();
   const int size = space.size();
   const auto place = [&](int i) {
