@@ -74,7 +74,7 @@ TEST(Mortar, AConstantPressureGivesConsistentForces) {
             const int t = mesh.edge_triangles(e, 0);
             const double sign = (mesh.edge_tag[e] == upper_side) == upper_slave ? 1 : -1;
             integral(space.cell_dofs().row(t)) +=
-                sign * mesh.edge_length(e) * means_on_edge(space.element(), local_edge(mesh, t, e));
+                sign * mesh.edge_length(e) * means_on_facet(space.element(), local_edge(mesh, t, e));
           }
           EXPECT_LT((found.jump.transpose() * found.lengths - integral).lpNorm<Eigen::Infinity>(),
                     1e-14);
