@@ -89,7 +89,7 @@ import resource
 resource.setrlimit(resource.RLIMIT_AS, ({megabytes} << 20,) * 2)
 try:
     import antilock
-except ImportError:
+except (ImportError, MemoryError):  # Python itself may lack the memory to read a module's file
     print("not loaded")
 else:
     scene = """{SCENE.replace("unstructured", "structured").format(64)}"""
