@@ -47,6 +47,7 @@ std::pair<double, double> work_on_phi(VariationalInequality problem, const std::
 std::optional<ContactForceBounds> contact_force_bounds(const Scene& scene, const Result& result,
                                                        const Certificate& certificate) {
   const Space& space = result.space;
+  require_triangles(space.mesh(), "bounds of the contact force");
   if (!scene.contact() || space.element().name() != crouzeix_raviart().name() ||
       std::holds_alternative<VentcelLayer>(scene.layer()))
     return {};

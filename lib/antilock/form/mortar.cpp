@@ -308,6 +308,7 @@ void fill_node_to_segment(InterfaceConstraints& constraints, const Interface& in
 
 InterfaceConstraints interface_constraints(const Space& space, EdgeTag slave, EdgeTag master,
                                            InterfaceMethod method) {
+  require_triangles(space.mesh(), "contact of two bodies");
   const Interface interface = make_interface(space, slave, master);
   const SlaveUnknowns unknowns(interface);
   check_no_common_unknown(interface, unknowns);

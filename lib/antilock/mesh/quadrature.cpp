@@ -27,7 +27,7 @@ namespace {
 Quadrature conical_rule(int degree) {
   const int n = (degree + 3) / 2;  // in s the polynomial is of degree + 1
   const auto [points, weights] = gauss_rule(n);
-  Quadrature rule{Eigen::MatrixX3d(n * n, 3), Eigen::VectorXd(n * n)};
+  Quadrature rule{ReferencePoints(n * n, 3), Eigen::VectorXd(n * n)};
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       const double s = points(i), t = points(j);
@@ -40,7 +40,7 @@ Quadrature conical_rule(int degree) {
 /// J. Radon, Zur mechanischen Kubatur, 1948
 Quadrature radons_rule() {
   const double s = std::sqrt(15.0), a = (6 - s) / 21, b = (6 + s) / 21;
-  Quadrature rule{Eigen::MatrixX3d(7, 3), Eigen::VectorXd(7)};
+  Quadrature rule{ReferencePoints(7, 3), Eigen::VectorXd(7)};
   rule.points << Eigen::RowVector3d::Constant(1.0 / 3), Eigen::Matrix3d::Constant(a),
       Eigen::Matrix3d::Constant(b);
   rule.points.diagonal(-1).setConstant(1 - 2 * a);

@@ -30,6 +30,7 @@ double contact_height(const TriangleMesh& mesh) {
 }
 
 void check_joinable(const TriangleMesh& mesh) {
+  require_triangles(mesh, "two bodies");
   const bool has_group = std::any_of(mesh.edge_tag.begin(), mesh.edge_tag.end(),
                                      [](EdgeTag tag) { return tag.group >= 0; });
   if (has_group || mesh.curved() || !mesh.geometry.file.empty())

@@ -73,7 +73,7 @@ TEST(TriangleMesh, RefusesWhatIsNoMesh) {
   };
   for (const int bad : {-1, 4, 1000}) {
     refused("accepted 0 to 3", [=](I& i) { i.triangles(1, 1) = bad; });
-    refused("tagged edge", [=](I& i) { i.tagged[2].to = bad; });
+    refused("tagged edge", [=](I& i) { i.tagged[2].vertices[1] = bad; });
   }
   refused("not finite", [](I& i) { i.vertices(2, 1) = nan; });
   refused("not finite", [](I& i) { i.vertices(2, 1) = infinity; });

@@ -13,12 +13,14 @@
 #include "antilock/certificate/balanced_tolerance.hpp"
 #include "antilock/certificate/certificate.hpp"
 #include "antilock/certificate/companion.hpp"
+#include "antilock/certificate/contact_force_bounds.hpp"
 #include "antilock/certificate/equilibrated_flux.hpp"
 #include "antilock/form/edge_forms.hpp"
 #include "antilock/form/elasticity_forms.hpp"
 #include "antilock/form/gradient_forms.hpp"
 #include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/form/interior_penalty.hpp"
+#include "antilock/form/mortar.hpp"
 #include "antilock/form/plate_forms.hpp"
 #include "antilock/form/strain_projection.hpp"
 #include "antilock/io/write_freefem_mesh.hpp"
@@ -29,6 +31,7 @@
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/mesh/submesh.hpp"
+#include "antilock/mesh/two_bodies.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/models/plate.hpp"
@@ -79,12 +82,14 @@ TEST(PlaneOnly, ChangesOfAMesh) {
   expect_refused([&] { resolve_load(copy, no_load, 1000); }, triangles);
   expect_refused([&] { with_free_sides(mesh); }, triangles);
   expect_refused([&] { extruded(body_alone(), 0.1, true); }, triangles);
+  expect_refused([&] { two_body_mesh(mesh, mesh); }, triangles);
 }
 
 TEST(PlaneOnly, ElementsOfOtherKinds) {
   expect_refused([] { element("P3", kind); }, "accepted \"P1\", \"P2\" and \"CR\"");
   expect_refused([] { lagrange(3, kind); }, "degree 3 is not accepted; 1 to 2");
-  for (const Element* planar : {&p1(), &p1_bubble(), &hybrid_bdm1(), &discontinuous_p1()})
+  for (const Element* planar :
+       {&p1(), &p1_bubble(), &hybrid_bdm1(), &fortin_soulie(), &discontinuous_p1()})
     expect_refused([&] { Space(body_and_layer(), *planar); }, "on a mesh of tetrahedra");
 }
 
@@ -94,6 +99,9 @@ TEST(PlaneOnly, Forms) {
   const PlateSpace plate{space, vectors};
   const Eigen::VectorXd zeros = Eigen::VectorXd::Zero(space.size());
   expect_refused([&] { ventcel_form(space, zeros); }, triangles);
+  expect_refused(
+      [&] { interface_constraints(space, upper_side, lower_side, InterfaceMethod::mortar); },
+      triangles);
   expect_refused([&] { interior_penalty_form(space, Region::body, 0, {}); }, triangles);
   expect_refused([&] { divergence(vectors); }, triangles);
   expect_refused([&] { strain_form(vectors); }, triangles);
@@ -154,6 +162,7 @@ TEST(PlaneOnly, CertificatesAndAccuracies) {
   expect_refused([&] { equilibrated_flux(stiff(), result); }, triangles);
   expect_refused([&] { local_companion(stiff(), result); }, triangles);
   expect_refused([&] { certify(stiff(), result); }, triangles);
+  expect_refused([&] { contact_force_bounds(stiff(), result, Certificate{}); }, triangles);
   expect_refused([&] { assemble_in_k(stiff(), p); }, triangles);
   expect_refused([&] { admissible_bounds(UnilateralContact{}, p, zeros); }, triangles);
   expect_refused([&] { energy_bounds(stiff(), p.mesh()); }, triangles);
