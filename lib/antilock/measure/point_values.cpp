@@ -2,29 +2,44 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
+
+#include "antilock/core/error.hpp"
+#include "antilock/space/cell_map.hpp"
 
 namespace antilock {
 namespace {
 
-using Box = Eigen::AlignedBox2d;
+template <int d>
+constexpr CellKind simplex = d == 2 ? CellKind::triangle : CellKind::tetrahedron;
 
-/// Asked by Eigen's walk through the boxes: the triangle of the smallest number that holds x.
+template <int d>
+auto gradients_of_coordinates(const Mesh& mesh, int t) {
+  using Map = CellMap<simplex<d>>;
+  return Map(mesh, t).at(Map::Coordinates::Zero()).gradient;  // the same at each point
+}
+
+/// Asked by Eigen's walk through the boxes: the cell of the smallest number that holds x.
+template <int d>
 struct Search {
-  const TriangleMesh& mesh;
-  Eigen::Vector2d x;
-  double outside, beyond;  ///< of a triangle's size, and of its box
+  using Point = Eigen::Matrix<double, d, 1>;
+  using Box = Eigen::AlignedBox<double, d>;
+
+  const Mesh& mesh;
+  Point x;
+  double outside, beyond;  ///< of a cell's size, and of its box
   PointValues::Location found{-1, {}};
 
   /// The rounding of the coordinates, which far from the origin is more than `outside`.
-  double ulp() const { return std::numeric_limits<double>::epsilon() * x.lpNorm<1>(); }
+  double ulp() const { return std::numeric_limits<double>::epsilon() * x.template lpNorm<1>(); }
 
   bool intersectVolume(const Box& box) const {
     return box.exteriorDistance(x) <= beyond * box.diagonal().norm() + ulp() * 4;
   }
   bool intersectObject(int t) {
-    const Eigen::Vector2d corner = mesh.vertices.row(mesh.triangles(t, 0));
-    const auto slopes = barycentric_gradients(mesh, t);
-    Eigen::Vector3d lambda = slopes * (x - corner);
+    const Point corner = mesh.vertices.row(mesh.triangles(t, 0));
+    const Eigen::Matrix<double, d + 1, d> slopes = gradients_of_coordinates<d>(mesh, t);
+    Eigen::Matrix<double, d + 1, 1> lambda = slopes * (x - corner);
     lambda(0) += 1;
     if (lambda.minCoeff() >= -outside - ulp() * slopes.cwiseAbs().maxCoeff() &&
         (found.triangle < 0 || t < found.triangle))
@@ -33,38 +48,65 @@ struct Search {
   }
 };
 
+template <int d>
+void init(Eigen::KdBVH<double, d, int>& tree, const Mesh& mesh) {
+  std::vector<int> cells(std::max(2, mesh.triangle_count()));  // a tree has two leaves or more
+  std::vector<Eigen::AlignedBox<double, d>> boxes(cells.size());
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    cells[k] = std::min(static_cast<int>(k), mesh.triangle_count() - 1);
+    for (const int v : mesh.triangles.row(cells[k]))
+      boxes[k].extend(mesh.vertices.row(v).transpose());
+  }
+  tree.init(cells.begin(), cells.end(), boxes.begin(), boxes.end());
+}
+
+template <int d>
+PointValues::Location nearest_cell(const Eigen::KdBVH<double, d, int>& tree, const Mesh& mesh,
+                                   const Eigen::Vector3d& x, double outside) {
+  // a point with lambda >= -outside lies at most d outside diameters beyond the cell, and lambda is
+  // rounded
+  Search<d> search{mesh, x.head<d>(), outside, d * outside + 1e-9};
+  Eigen::BVIntersect(tree, search);
+  return search.found;
+}
+
+template <int d>
+Eigen::Vector3d gradient_in(const Space& space, const Eigen::VectorXd& u,
+                            const PointValues::Location& at) {
+  const Eigen::Matrix<double, Eigen::Dynamic, d + 1> derivative =
+      space.element().derivative(at.lambda);
+  const Eigen::Matrix<double, Eigen::Dynamic, d> slopes =
+      derivative * gradients_of_coordinates<d>(space.mesh(), at.triangle);
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  gradient.head<d>() = slopes.transpose() * u(space.cell_dofs().row(at.triangle));
+  return gradient;
+}
+
 }  // namespace
 
 PointValues::PointValues(const Space& space) : space_(space) {
-  const TriangleMesh& mesh = space.mesh();
-  require_triangles(mesh, "values at points");
-  std::vector<int> triangles(std::max(2, mesh.triangle_count()));  // a tree has two leaves or more
-  std::vector<Box> boxes(triangles.size());
-  for (std::size_t k = 0; k < triangles.size(); ++k) {
-    triangles[k] = std::min(static_cast<int>(k), mesh.triangle_count() - 1);
-    for (const int v : mesh.triangles.row(triangles[k]))
-      boxes[k].extend(mesh.vertices.row(v).transpose());
-  }
-  tree_.init(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
+  const Mesh& mesh = space.mesh();
+  if (!mesh.reference().simplex)
+    throw Error(std::string("values at points: a mesh of ") + mesh.reference().plural +
+                "; accepted: triangles and tetrahedra");
+  if (mesh.dimension() == 3) tree_.emplace<Tree<3>>();
+  std::visit([&](auto& tree) { init(tree, mesh); }, tree_);
 }
 
-std::optional<PointValues::Location> PointValues::locate(const Eigen::Vector2d& x,
+std::optional<PointValues::Location> PointValues::locate(const Eigen::Vector3d& x,
                                                          double outside) const {
-  // a point with lambda >= -outside lies at most 2 outside diameters beyond the triangle, and
-  // lambda is rounded
-  Search search{space_.mesh(), x, outside, 2 * outside + 1e-9};
-  Eigen::BVIntersect(tree_, search);
-  return search.found.triangle >= 0 ? std::optional(search.found) : std::nullopt;
+  const Location found = std::visit(
+      [&](const auto& tree) { return nearest_cell(tree, space_.mesh(), x, outside); }, tree_);
+  return found.triangle >= 0 ? std::optional(found) : std::nullopt;
 }
 
 double PointValues::value(const Eigen::VectorXd& u, const Location& at) const {
   return space_.element().basis(at.lambda).dot(u(space_.cell_dofs().row(at.triangle)));
 }
 
-Eigen::Vector2d PointValues::gradient(const Eigen::VectorXd& u, const Location& at) const {
-  const Eigen::MatrixX3d derivative = space_.element().derivative(at.lambda);
-  const Eigen::MatrixX2d slopes = derivative * barycentric_gradients(space_.mesh(), at.triangle);
-  return slopes.transpose() * u(space_.cell_dofs().row(at.triangle));
+Eigen::Vector3d PointValues::gradient(const Eigen::VectorXd& u, const Location& at) const {
+  if (space_.mesh().dimension() == 3) return gradient_in<3>(space_, u, at);
+  return gradient_in<2>(space_, u, at);
 }
 
 }  // namespace antilock

@@ -242,10 +242,10 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGr
                        double x, double y) {
     if (!parts->places)  // asked for the first time
       parts->places.emplace(Space(read_msh(mesh.string(), groups, &parts->part), p1()));
-    auto at = parts->places->locate({x, y}, 1e-9);
+    auto at = parts->places->locate({x, y, 0}, 1e-9);
     if (!at)
       at = parts->places->locate(
-          {x, y}, 0.5);  // beside the file's polygon, where refinement follows a curve
+          {x, y, 0}, 0.5);  // beside the file's polygon, where refinement follows a curve
     const int part = at ? parts->part[at->triangle] : -1;
     if (part < 0)
       throw InputError(fmt::format(

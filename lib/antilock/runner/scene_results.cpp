@@ -182,7 +182,7 @@ SceneSummary summary_of(const SceneFile& file, const Result& result,
     const PointValues values(result.space);
     for (Eigen::Index i = 0; i < s.at.rows(); ++i) {
       const Eigen::Vector2d& x = file.at[i];
-      const auto place = values.locate(x, 1e-9);
+      const auto place = values.locate({x(0), x(1), 0}, 1e-9);
       if (!place)
         throw Error(fmt::format(
             "{}: at.points: ({:g}, {:g}) is outside the mesh; accepted: points of body and layer",

@@ -47,7 +47,7 @@ Matched matched(const Space& space, const Eigen::MatrixXd& rows, double most_off
   Matched found{Eigen::VectorXd::Zero(space.size())};
   std::vector<char> met(static_cast<std::size_t>(space.size()), 0);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const auto place = at.locate(rows.row(i).head(2).transpose(), most_off);
+    const auto place = at.locate({rows(i, 0), rows(i, 1), 0}, most_off);
     int unknown = -1;
     double nearest =
         2 * most_off;  // the barycentric coordinates sum to 1: one of them may be twice as far off
@@ -226,7 +226,7 @@ std::optional<double> a_priori_bound(const Space& space, const Field& f) {
 Reference reference(const Result& own, const PointValues& at) {
   const auto place = [&at](double x, double y) {
     const auto found = at.locate(
-        {x, y}, 1e-6);  // of a triangle's size: its own mesh has the same boundary, rounded
+        {x, y, 0}, 1e-6);  // of a triangle's size: its own mesh has the same boundary, rounded
     if (!found)
       throw Error(
           fmt::format("estimate: ({}, {}) is outside the mesh of the certified answer", x, y));
@@ -241,7 +241,7 @@ Reference reference(const Result& own, const PointValues& at) {
     const auto found = place(x, y);
     const int t = found.triangle;
     const bool stress = own.space.mesh().region[t] == Region::layer && own.solution.p.size() > 0;
-    return ExactPoint{at.value(own.solution.u, found), at.gradient(own.solution.u, found),
+    return ExactPoint{at.value(own.solution.u, found), at.gradient(own.solution.u, found).head<2>(),
                       stress ? own.solution.p(row[t]) : 0};
   };
   return reference;

@@ -106,10 +106,10 @@ Known by_certificate(const SceneFile& file, double accuracy, const Eigen::Matrix
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     Eigen::Vector2d x = points.row(i);
     if (std::abs(x(1)) < rounded) x(1) = rounded;  // on Sigma the gradient is the body's
-    const auto place = at.locate(x, rounded);
+    const auto place = at.locate({x(0), x(1), 0}, rounded);
     if (!place)
       throw Error(fmt::format("points: ({}, {}) is {}", points(i, 0), points(i, 1), outside));
-    Row row{at.value(solution.u, *place), at.gradient(solution.u, *place)};
+    Row row{at.value(solution.u, *place), at.gradient(solution.u, *place).head<2>()};
     if (scaled && mesh.region[place->triangle] == Region::layer)
       row.p = solution.p(p_row[place->triangle]);
     known.rows.push_back(row);

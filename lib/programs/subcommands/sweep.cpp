@@ -122,7 +122,7 @@ OnMesh on_mesh(const SceneFile& file, const std::vector<double>& at) {
         file.name, on.cells));
   const PointValues values(on.space);
   for (std::size_t i = 0; i < at.size(); i += 2) {
-    const auto place = values.locate({at[i], at[i + 1]});
+    const auto place = values.locate({at[i], at[i + 1], 0});
     if (!place)
       throw Error(
           fmt::format("antilock sweep: --at: ({}, {}) is outside the mesh; accepted: points of it",

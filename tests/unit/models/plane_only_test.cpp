@@ -133,7 +133,6 @@ TEST(PlaneOnly, Measurements) {
   const Result result = solved(crouzeix_raviart(kind));
   const Space& space = result.space;
   const Eigen::VectorXd& u = result.solution.u;
-  expect_refused([&] { PointValues{space}; }, triangles);
   expect_refused([&] { contact_edges(space.mesh()); }, triangles);
   expect_refused([&] { contact_trace(space, u); }, triangles);
   expect_refused([&] { contact_work(space, [](double) { return 1.0; }); }, triangles);
@@ -183,6 +182,7 @@ TEST(PlaneOnly, Quadrilaterals) {
   expect_refused([&] { measure_errors(space, {}, 1, zero()); }, "accepted: triangles");
   expect_refused([&] { layer_components(space.mesh()); }, "accepted: triangles");
   expect_refused([&] { space.mesh().area(0); }, "accepted: triangles");
+  expect_refused([&] { PointValues{space}; }, "accepted: triangles and tetrahedra");
 }
 
 }  // namespace antilock::test::models_test::plane_only_test
