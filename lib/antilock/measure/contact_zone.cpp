@@ -35,7 +35,18 @@ ContactZone contact_zone(const Result& result) {
   require_space_of_bounds(result, "contact zone");
   const Space& space = result.space;
   const Eigen::VectorXd x = space.dof_coordinates().col(0)(space.contact_dofs());
-  return contact_zone(x, result.solution.active, contact_ends(space.mesh()));
+  const std::vector<bool>& active = result.solution.active;
+  ContactZone zone = contact_zone(x, active, contact_ends(space.mesh()));
+  if (space.mesh().dimension() == 2) return zone;
+  zone.from_within.reset();
+  zone.to_within.reset();
+  const Eigen::VectorXd y = space.dof_coordinates().col(1)(space.contact_dofs());
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    if (!active[static_cast<std::size_t>(i)]) continue;
+    const auto [least, most] = zone.y_range.value_or(std::pair(y(i), y(i)));
+    zone.y_range = std::pair(std::min(least, y(i)), std::max(most, y(i)));
+  }
+  return zone;
 }
 
 ContactZone contact_zone(const Eigen::VectorXd& x, const std::vector<bool>& active,
@@ -76,6 +87,9 @@ ContactForce contact_force(const Result& result) {
   ContactForce force;
   force.normal = result.solution.lambda.sum();
   force.moment = result.solution.lambda.dot(x);
+  if (space.mesh().dimension() == 2) return force;
+  const Eigen::VectorXd y = space.dof_coordinates().col(1)(space.contact_dofs());
+  force.moment_y = result.solution.lambda.dot(y);
   return force;
 }
 

@@ -13,10 +13,13 @@ struct ContactZone {
   int points = 0;                  ///< contact unknowns
   int active = 0;                  ///< those in contact
   std::optional<double> from, to;  ///< the range of x of those in contact; empty if there are none
+  /// In space: the range of y of those in contact. Empty in the plane.
+  std::optional<std::pair<double, double>> y_range = {};
   /// The intervals of x in which this range begins and ends. The discrete problem bounds u at the
   /// contact unknowns alone, so it does not say where between two neighbours contact ends. Each
   /// interval lies between an end of the range and its neighbour outside, or the end of Gamma_C if
-  /// there is no neighbour. It is no bound of the error against the exact zone.
+  /// there is no neighbour. It is no bound of the error against the exact zone. Both are empty in
+  /// space, where the unknowns beside a zone are not its neighbours in x.
   std::optional<std::pair<double, double>> from_within, to_within;
 };
 /// Returns the contact zone of a solution. The space of `result` must be that of the bounded
@@ -32,21 +35,25 @@ ContactZone contact_zone(const Eigen::VectorXd& x, const std::vector<bool>& acti
 /// infinity and minus infinity where the mesh has no such edge.
 std::pair<double, double> contact_ends(const TriangleMesh& mesh, EdgeTag tag = EdgeTag::contact);
 
-/// The resultant of the forces of the obstacles on the body, per unit length of the third
-/// direction. Its unit is that of the body force f times length^2.
+/// The resultant of the forces of the obstacles on the body, in the plane per unit length of the
+/// third direction. Its unit is that of the body force f times length^2, in space times length^3.
 struct ContactForce {
   /// The sum of all lambda_i, upwards: int p for the contact pressure p (contact_table). Above 0 an
   /// obstacle below pushes, below 0 one above.
   double normal = 0;
   /// The sum of the forces of friction, to the right; empty without friction.
   std::optional<double> tangential = {};
-  /// The sum of all lambda_i x_i, int x p, in the unit of f times length^3. It is the moment about
-  /// the point of the contact line with x = 0, anticlockwise, since friction acts along this line.
+  /// The sum of all lambda_i x_i, int x p, in the unit of f times length^3, in space length^4. It
+  /// is the moment about the point of the contact line with x = 0, anticlockwise, since friction
+  /// acts along this line. In space it is minus the moment about the axis y.
   double moment = 0;
+  /// The sum of all lambda_i y_i, int y p, in space: the moment about the axis x. Empty in the
+  /// plane.
+  std::optional<double> moment_y = {};
 };
-/// Returns normal force and moment of a solution. Every element has affine functions, with their
-/// values at the places of the unknowns. So both are the work of the discrete contact forces on the
-/// displacements 1 and x, without a quadrature error. Forces at prescribed unknowns, such as the
+/// Returns normal force and moments of a solution: the work of the discrete contact forces on the
+/// displacements 1, x and y, without a quadrature error, since each element has affine functions
+/// with their values at the places of the unknowns. Forces at prescribed unknowns, such as the
 /// clamped ends of Gamma_C, are not contained. Throws Error as contact_zone does.
 ContactForce contact_force(const Result& result);
 
