@@ -42,14 +42,17 @@ shape on and above y = 0 with a bottom edge on that line; all of that edge is co
 layer that the file does not hold is grown below the contact edges, in columns. In a file with the body alone these edges may be
 curved, each x once, and at any height: the layer grows along their normals, and gap(x) is asked at the x of the edge. accuracy refuses springs, a ceiling, a
 load on the layer, a stiffness that varies on a triangle and a displacement that is not affine on the edges of the mesh;
-"petsc" refuses all of [body], [[edge]], [at], geometry, ceiling and the layer's numbers. With a geometry, accuracy and refinements put
+"petsc" refuses all of [body], [[edge]], [at], geometry, ceiling and the layer's numbers. With dimension = 3 body and layer are groups
+of volumes, the others are groups of surfaces, the bottom of the body is on z = 0, and a traction is force per area; refused are
+an accuracy, "petsc", "ventcel", plane strain, two bodies, refinements, a geometry, other elements than P1, CR and P2, and P2 with
+contact. With a geometry, accuracy and refinements put
 the new vertices of the body's boundary on its curves.
 Read are the scene and the two files that [mesh] names, no other; nothing is run. A .geo is a script of gmsh, which may run programs
 and read and write files: gmsh gets the commands of it that draw. A script with any other is refused by name and line; statements on
 the mesh alone (Mesh, Physical, Field, ...) are left out. A .brep holds data, which OpenCASCADE reads. A .geo or .brep
 that lies beside the mesh file and is not named is not read: refinements and accuracy warn of it.
 
-Written to the results folder: summary.json; solution.csv (x,y,u; in plane strain x,y,u_x,u_y; with element = \"BDM1-hybrid\" x,y,u,mean: the unknowns are means, u is a value); contact.csv (x,gap,pressure; with contact only,
+Written to the results folder: summary.json; solution.csv (x,y,u; in space x,y,z,u; in plane strain x,y,u_x,u_y; with element = \"BDM1-hybrid\" x,y,u,mean: the unknowns are means, u is a value); contact.csv (x,gap,pressure, in space x,y,gap,pressure; with contact only,
 with friction a column of that name: the tangential force per length), where
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it; parts of the body that [body] names are one group there);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:
@@ -62,8 +65,10 @@ locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the sha
 motion that is lost at least (proved; null where nothing is proved), kept is 1 - lost_energy;
 contact_force, with contact, is the resultant of the obstacles' forces on the body: normal (upwards), tangential (to the right; null without friction) and
 moment (anticlockwise, about x = 0), in the unit of f times length^2 and length^3; normal_proved and moment_proved are the intervals
-that are proved, with an accuracy and where u is prescribed at no end of the contact boundary, else null. contact has the range of x from ... to of the unknowns in
-contact, and from_within and to_within: the interval between the end of that range and the next unknown;
+that are proved, with an accuracy and where u is prescribed at no end of the contact boundary, else null. In space it is {normal,
+moment, moment_y}, the integrals of the pressure times 1, x and y, in one power of length more. contact has the range of x from ... to of the unknowns in
+contact, and from_within and to_within: the interval between the end of that range and the next unknown (in space y_from and y_to,
+the range of y, in their place);
 coulomb, with that key, has the steps of the fixed point and the contraction of the last one; where it does not contract: status 3;
 compliance is {value, lower, upper}: the work L(u) of the loads, with an accuracy and where gap and displacements are 0 its proved bounds;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
@@ -177,7 +182,7 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   const std::string name = (asked.out / "solution").string();
   const char* const kind = std::visit(
       [&](const auto& model) { return model.picture(file.mesh.from_file()); }, file.model);
-  if (asked.files.contains("vtu"))
+  if (asked.files.contains("vtu") && file.mesh.dimension == 2)
     fmt::print("  a picture of it: {} {} {} --out {}\n",
                tutorial::in_shell(tutorial::sibling_path("render")), kind,
                tutorial::in_shell(name + ".vtu"), tutorial::in_shell(name + ".png"));

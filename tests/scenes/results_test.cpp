@@ -47,6 +47,41 @@ std::string unstructured(int cells) {
 }
 const std::string contact = "[contact]\n", cr = "element = \"CR\"\n";
 
+/// contact.csv, and the entries of the summary on contact.
+void expect_contact_interface(const nlohmann::json& s, const Csv& table, int dimension) {
+  const bool in_space = dimension == 3;
+  const Keys in_plane_zone{"points", "active", "from", "to", "from_within", "to_within"};
+  const Keys in_space_zone{"points", "active", "from", "to", "y_from", "y_to"};
+  const Keys in_plane_force{"normal", "normal_proved", "tangential",
+                            "moment", "moment_proved", "unit"};
+  const Keys in_space_force{"normal", "moment", "moment_y", "unit"};
+  const auto& zone = s["contact"];
+  EXPECT_EQ(keys(zone), in_space ? in_space_zone : in_plane_zone);
+  EXPECT_EQ(keys(s["contact_force"]), in_space ? in_space_force : in_plane_force);
+  const auto model = s["scene"].value("model", nlohmann::json::object());
+  const bool rubs = model.contains("friction") || model.contains("coulomb");
+  const std::string in_plane = rubs ? "x,gap,pressure,friction" : "x,gap,pressure";
+  EXPECT_EQ(table.header, in_space ? "x,y,gap,pressure" : in_plane);
+  if (!in_space) EXPECT_EQ(s["contact_force"]["tangential"].is_null(), !rubs);
+  ASSERT_EQ(table.rows.rows(), zone["points"].get<Eigen::Index>());
+  const Eigen::VectorXd gap = table.rows.col(dimension - 1);
+  const Eigen::VectorXd pressure = table.rows.col(dimension);
+  EXPECT_GE(gap.minCoeff(), 0.0);
+  EXPECT_GE(pressure.minCoeff(), 0.0);
+  EXPECT_TRUE(std::is_sorted(table.rows.col(0).begin(), table.rows.col(0).end()));
+  const Eigen::Index pressed = (pressure.array() > 0).count();
+  const auto active = zone["active"].get<Eigen::Index>();
+  EXPECT_LE(pressed, active);
+  for (const auto& [name, end] : zone.items())
+    if (name != "points" && name != "active") EXPECT_EQ(end.is_null(), active == 0) << name;
+  if (active == 0 || in_space) return;
+  // the ends are ends of their intervals
+  EXPECT_EQ(zone["from_within"][1], zone["from"]);
+  EXPECT_EQ(zone["to_within"][0], zone["to"]);
+  EXPECT_LE(zone["from_within"][0], zone["from"]);
+  EXPECT_GE(zone["to_within"][1], zone["to"]);
+}
+
 /// Everything that holds for every answer, whatever the scene.
 void expect_interface(const std::filesystem::path& results) {
   const auto s = nlohmann::json::parse(contents(results / "summary.json"));
@@ -109,28 +144,32 @@ void expect_interface(const std::filesystem::path& results) {
     groups.curves[s["scene"]["contact slave"]] = natural_group(8);
     groups.curves[s["scene"]["contact master"]] = natural_group(9);
   }
-  const TriangleMesh mesh = read_msh((results / "mesh.msh").string(), groups);
-  const Space space(mesh, element(s["element"]));
+  const Mesh mesh = read_msh((results / "mesh.msh").string(), groups);
+  const int d = mesh.dimension();
+  EXPECT_EQ(d, s["scene"]["mesh"].value("dimension", 2));
+  const Space space(mesh, element(s["element"], mesh.kind));
   const Csv solution = read_csv(results / "solution.csv");
   // unknowns that are means have a column of their own beside the values of u
   const bool means = !space.element().nodal();
-  const std::string header = means ? "x,y,u,mean" : "x,y,u";
-  EXPECT_EQ(solution.header, vector ? "x,y,u_x,u_y" : header);
+  std::string header = d == 3 ? "x,y,z,u" : "x,y,u";
+  if (means) header = "x,y,u,mean";
+  if (vector) header = "x,y,u_x,u_y";
+  EXPECT_EQ(solution.header, header);
   ASSERT_EQ(solution.rows.rows(), space.size());
   // positions and values survive the way through text bit by bit (gmsh's own coordinates may be
   // halved once more)
-  EXPECT_LE((solution.rows.leftCols(2) - space.dof_coordinates()).cwiseAbs().maxCoeff(), 1e-15);
-  const Eigen::MatrixXd values = solution.rows.middleCols(2, vector ? 2 : 1);
+  EXPECT_LE((solution.rows.leftCols(d) - space.dof_coordinates()).cwiseAbs().maxCoeff(), 1e-15);
+  const Eigen::MatrixXd values = solution.rows.middleCols(d, vector ? 2 : 1);
   EXPECT_EQ(values.maxCoeff(), s["u_max"].get<double>());
   EXPECT_EQ(values.minCoeff(), s["u_min"].get<double>());
-  for (const int i : space.dirichlet_dofs()) EXPECT_EQ(solution.rows(i, means ? 3 : 2), 0.0);
+  for (const int i : space.dirichlet_dofs()) EXPECT_EQ(solution.rows(i, means ? 3 : d), 0.0);
   // each constraint of two bodies is an unknown of the systems that are solved
   const int constraints = two_bodies ? s["contact"]["points"].get<int>() : 0;
   EXPECT_EQ(s["dofs"].get<int>(), (vector ? 2 : 1) * space.free_count() + constraints);
 
   const std::string vtu = contents(results / "solution.vtu");
   const bool jumps = !space.element().conforming();
-  const int points = jumps || vector ? 3 * mesh.triangle_count() : mesh.vertex_count();
+  const int points = jumps || vector ? (d + 1) * mesh.triangle_count() : mesh.vertex_count();
   EXPECT_NE(vtu.find("NumberOfPoints=\"" + std::to_string(points) + "\""), vtu.npos);
   for (const std::string region : {"body", "layer"})
     EXPECT_EQ(vtu.find("Name=\"" + region + "\"") != vtu.npos, !vector) << region;
@@ -153,33 +192,9 @@ void expect_interface(const std::filesystem::path& results) {
     EXPECT_EQ(s["iterations"]["contact"].get<int>(), 0);
     return;
   }
-  EXPECT_EQ(keys(s["contact"]),
-            (Keys{"points", "active", "from", "to", "from_within", "to_within"}));
-  EXPECT_EQ(keys(s["contact_force"]),
-            (Keys{"normal", "normal_proved", "tangential", "moment", "moment_proved", "unit"}));
-  const Csv table = read_csv(results / "contact.csv");
-  const auto model = s["scene"].value("model", nlohmann::json::object());
-  const bool rubs = model.contains("friction") || model.contains("coulomb");
-  EXPECT_EQ(table.header, rubs ? "x,gap,pressure,friction" : "x,gap,pressure");
-  EXPECT_EQ(s["contact_force"]["tangential"].is_null(), !rubs);
-  const auto points_on = s["contact"]["points"].get<Eigen::Index>();
-  ASSERT_EQ(table.rows.rows(), points_on);
+  expect_contact_interface(s, read_csv(results / "contact.csv"), d);
   if (!two_bodies) {
-    EXPECT_EQ(points_on, std::ssize(space.contact_dofs()));
-  }
-  EXPECT_GE(table.rows.col(1).minCoeff(), 0.0);
-  EXPECT_GE(table.rows.col(2).minCoeff(), 0.0);
-  EXPECT_TRUE(std::is_sorted(table.rows.col(0).begin(), table.rows.col(0).end()));
-  const Eigen::Index pressed = (table.rows.col(2).array() > 0).count();
-  const auto active = s["contact"]["active"].get<Eigen::Index>();
-  EXPECT_LE(pressed, active);
-  EXPECT_EQ(s["contact"]["from"].is_null(), active == 0);
-  EXPECT_EQ(s["contact"]["to"].is_null(), active == 0);
-  if (active > 0) {  // the ends are ends of their intervals
-    EXPECT_EQ(s["contact"]["from_within"][1], s["contact"]["from"]);
-    EXPECT_EQ(s["contact"]["to_within"][0], s["contact"]["to"]);
-    EXPECT_LE(s["contact"]["from_within"][0], s["contact"]["from"]);
-    EXPECT_GE(s["contact"]["to_within"][1], s["contact"]["to"]);
+    EXPECT_EQ(s["contact"]["points"].get<Eigen::Index>(), std::ssize(space.contact_dofs()));
   }
 }
 

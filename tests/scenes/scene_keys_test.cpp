@@ -29,6 +29,7 @@ std::string lines_before(const SceneKey& key) {
   if (place == "contact.master") return "slave = \"a\"\n";
   if (place == "contact.method") return "slave = \"a\"\nmaster = \"b\"\n";
   if (place == "mesh.cells") return "kind = \"structured\"\n";
+  if (place == "mesh.dimension") return "kind = \"structured\"\ncells = 8\n";
   if (place == "mesh.refinements") return "kind = \"structured\"\ncells = 8\n";
   if (place == "mesh.file") return "kind = \"file\"\n";
   if (place == "mesh.geometry") return "kind = \"file\"\nfile = \"my.msh\"\n";

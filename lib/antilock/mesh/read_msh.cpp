@@ -647,4 +647,26 @@ TriangleMesh read_msh(const std::string& path, const ExtraGroups& more, std::vec
   return read_msh(*open_file(path, path, "a MSH file, 2.2 or 4.1, ASCII"), path, more, part);
 }
 
+int named_dimension(const std::string& path) {
+  constexpr std::streamsize most = 1 << 20;
+  std::string start(most, '\0');
+  try {
+    const std::unique_ptr<std::istream> in = open_file(path, path, "a MSH file");
+    in->read(start.data(), most);
+    start.resize(static_cast<std::size_t>(in->gcount()));
+  } catch (const Error&) {  // read_msh refuses the file, with the reason
+    return 2;
+  }
+  std::istringstream lines(start);
+  bool are_names = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("$")) are_names = line.starts_with("$PhysicalNames");
+    std::istringstream words(line);
+    int dimension = 0, number = 0;
+    std::string name;
+    if (are_names && words >> dimension >> number >> name && dimension == 3) return 3;
+  }
+  return 2;
+}
+
 }  // namespace antilock

@@ -29,4 +29,8 @@ TriangleMesh read_msh(const std::string& path, const ExtraGroups& more = {},
 TriangleMesh read_msh(std::istream& in, const std::string& name, const ExtraGroups& more = {},
                       std::vector<int>* part = nullptr);
 
+/// Returns 3 where a MSH file names a physical group of volumes, and 2 else, also for a file that
+/// cannot be read. Only the names are read, from the first megabyte of the file.
+int named_dimension(const std::string& path);
+
 }  // namespace antilock

@@ -70,8 +70,7 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
   double lowest = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.region[t] == Region::layer)
-      for (const int v : mesh.triangles.row(t))
-        lowest = std::min(lowest, mesh.vertices(v, across));
+      for (const int v : mesh.triangles.row(t)) lowest = std::min(lowest, mesh.vertices(v, across));
   const double wanted = -scene.layer_depth();
   const double off = slack * std::max(size, scene.layer_depth());
   if (mesh_has_layer && (lowest < wanted - off || (lowest > wanted + off && is_whole(mesh))))
@@ -286,6 +285,10 @@ void add_load_and_bounds(VariationalInequality& problem, const Scene& scene, con
 }
 
 }  // namespace
+
+double profile_value(const Profile& profile, const Position& x) {
+  return x.size() == 2 ? profile(x(0)) : profile(x(0), x(1));
+}
 
 double class_parameter(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
 

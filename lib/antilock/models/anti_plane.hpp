@@ -30,6 +30,9 @@ Eigen::VectorXd load_of(const Scene& scene, const Space& space);
 /// Returns the class parameter of (1), which in (23) is the square of the epsilon of [SR04].
 /// `assemble` puts it into VariationalInequality::compliance.
 double class_parameter(const StiffLayer& layer);
+/// Returns the value of a gap or a ceiling at a point of Gamma_C: a function of x, in space of x
+/// and y.
+double profile_value(const Profile& profile, const Position& x);
 /// Returns the displacement that is prescribed at the point x of the Dirichlet facet e. It is 0 on
 /// a clamped facet. On the side of a layer it is the displacement on Sigma above x.
 double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const Position& x);

@@ -242,13 +242,22 @@ class Reader {
 
 }  // namespace
 
+std::string in_words(const std::vector<std::string>& names) {
+  std::string words;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) words += i + 1 == names.size() ? " and " : ", ";
+    words += names[i];
+  }
+  return words;
+}
+
 Expression::Expression(std::string text, std::vector<std::string> variables)
     : text_(std::move(text)), names_(std::move(variables)) {
   const auto refuse = [&](const std::string& why) {
     throw Error(fmt::format(
         "\"{}\" {}; accepted: an expression in {} with + - * / ^, comparisons, c ? a : b, pi, sin, "
         "cos, exp, sqrt, abs",
-        printable(text_), why, fmt::join(names_, " and ")));
+        printable(text_), why, in_words(names_)));
   };
   if (text_.find_first_not_of(blanks) == std::string::npos) refuse("is empty");
   if (text_.size() > longest_text)
@@ -275,5 +284,9 @@ double Expression::operator()(std::span<const double> variables) const {
 }
 
 double Expression::operator()(double x, double y) const { return (*this)(std::array{x, y}); }
+
+double Expression::operator()(double x, double y, double z) const {
+  return (*this)(std::array{x, y, z});
+}
 
 }  // namespace antilock

@@ -6,6 +6,9 @@
 
 namespace antilock {
 
+/// Returns a list of names for a sentence: "x", "x and y" or "x, y and z".
+std::string in_words(const std::vector<std::string>& names);
+
 /// A formula from a file, such as `10*sin(2*pi*x)`, parsed once. It may contain numbers, the named
 /// variables, pi, + - * / ^, comparisons, && ||, `condition ? a : b`, and the functions sin cos tan
 /// asin acos atan atan2 sinh cosh tanh exp ln log log2 log10 sqrt abs sign rint min max. Values are
@@ -27,6 +30,7 @@ class Expression {
   double operator()(std::span<const double> variables) const;
   double operator()(double x) const { return (*this)(std::span(&x, 1)); }
   double operator()(double x, double y) const;
+  double operator()(double x, double y, double z) const;
 
  private:
   std::string text_;

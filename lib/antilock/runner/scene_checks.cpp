@@ -1,6 +1,7 @@
 #include "antilock/runner/scene_checks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -15,15 +16,36 @@
 #include "antilock/analysis/locking.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/form/gradient_forms.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
 namespace {
 
-/// The place of point k in a triangle: a sequence of low discrepancy in the unit square (Roberts
-/// 2018, the plastic number), folded to the triangle. No two points of a run have the same x or the
-/// same y, so that strips are found as well as spots.
-Eigen::Vector3d spread_point(double k) {
+/// The barycentric coordinates of point k in a simplex: a sequence of low discrepancy in the unit
+/// square or cube (Roberts 2018), folded to the simplex. No two points of a run have the same x or
+/// the same y, so that strips are found as well as spots. The fold of the cube keeps volumes: it
+/// has C. Rocchini and P. Cignoni, J. Graphics Tools 5(4), 2000.
+ReferencePoint spread_point(double k, int dimension) {
+  if (dimension == 3) {
+    constexpr double harmonious = 1.22074408460575947536;  // g^4 = g + 1
+    double a = std::fmod(0.5 + k * (1 / harmonious), 1);
+    double b = std::fmod(0.5 + k * (1 / (harmonious * harmonious)), 1);
+    double c = std::fmod(0.5 + k * (1 / (harmonious * harmonious * harmonious)), 1);
+    if (a + b > 1) {
+      a = 1 - a;
+      b = 1 - b;
+    }
+    const double height = c;
+    if (b + height > 1) {
+      c = 1 - a - b;
+      b = 1 - height;
+    } else if (a + b + height > 1) {
+      c = a + b + height - 1;
+      a = 1 - b - height;
+    }
+    return Eigen::Vector4d(1 - a - b - c, a, b, c);
+  }
   constexpr double plastic = 1.32471795724474602596;
   double a = std::fmod(0.5 + k * (1 / plastic), 1);
   double b = std::fmod(0.5 + k * (1 / (plastic * plastic)), 1);
@@ -31,19 +53,29 @@ Eigen::Vector3d spread_point(double k) {
     a = 1 - a;
     b = 1 - b;
   }
-  return {1 - a - b, a, b};
+  return Eigen::Vector3d(1 - a - b, a, b);
 }
 
-/// 1, a, b, a a, a b, b b at a point of a triangle with the barycentric coordinates (1 - a - b, a,
-/// b).
-Eigen::Matrix<double, 6, 1> quadratics(const Eigen::Vector3d& lambda) {
-  const double a = lambda(1), b = lambda(2);
-  return Eigen::Matrix<double, 6, 1>(1, a, b, a * a, a * b, b * b);
+/// Up to 10 numbers, without memory from the heap.
+using Monomials = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 10, 1>;
+
+/// The monomials up to degree 2 of the barycentric coordinates but the first one, a and b in the
+/// plane: 1, a, b, a a, a b, b b.
+Monomials quadratics(const ReferencePoint& lambda) {
+  const Eigen::Index d = lambda.size() - 1;
+  Monomials monomials((d + 1) * (d + 2) / 2);
+  monomials(0) = 1;
+  monomials.segment(1, d) = lambda.tail(d);
+  Eigen::Index next = d + 1;
+  for (Eigen::Index i = 1; i <= d; ++i)
+    for (Eigen::Index j = i; j <= d; ++j) monomials(next++) = lambda(i) * lambda(j);
+  return monomials;
 }
 
 /// From the values at the points of a rule to the quadratic that fits them best.
 Eigen::MatrixXd quadratic_fit(const Quadrature& rule) {
-  Eigen::MatrixXd at_points(rule.weights.size(), 6);
+  const Eigen::Index d = rule.points.cols() - 1;
+  Eigen::MatrixXd at_points(rule.weights.size(), (d + 1) * (d + 2) / 2);
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
     at_points.row(q) = quadratics(rule.points.row(q)).transpose();
   return pseudo_inverse(at_points);
@@ -60,30 +92,41 @@ Eigen::VectorXd prescribed(const SceneFile& file, const TriangleMesh& mesh) {
   return values;
 }
 
-double body_area(const TriangleMesh& mesh) {
-  double area = 0;
+double body_measure(const Mesh& mesh) {
+  double measure = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == Region::body) area += mesh.area(t);
-  return area;
+    if (mesh.region[t] == Region::body) measure += mesh.measure(t);
+  return measure;
 }
 
-/// The load f on the body by samples, which stand for the same area each: a triangle may have many,
-/// or none.
+/// 1, x, y and, in space, z.
+Monomials affine_functions(const Position& x) {
+  Monomials values(1 + x.size());
+  values << 1, x.transpose();
+  return values;
+}
+
+/// The load f on the body by samples, which stand for the same area or volume each: a cell may have
+/// many, or none.
 class LoadSamples {
  public:
   LoadSamples(const Space& space, const Field& f)
-      : space_(space), f_(f), area_(body_area(space.mesh())) {
+      : space_(space),
+        f_(f),
+        measure_(body_measure(space.mesh())),
+        sampled_(Eigen::VectorXd::Zero(1 + space.mesh().dimension())),
+        size_(sampled_) {
     const Quadrature& rule = load_rule(space.element());
     const Eigen::MatrixXd fit = quadratic_fit(rule);
     const TriangleMesh& mesh = space.mesh();
-    double due = 0;  // samples, of the triangles so far, that have not been taken
+    double due = 0;  // samples, of the cells so far, that have not been taken
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       if (mesh.region[t] != Region::body) continue;
-      due += points * mesh.area(t) / area_;
+      due += points * mesh.measure(t) / measure_;
       const int here = static_cast<int>(due);
       due -= here;
       if (here == 0) continue;
-      // f is fitted on as many triangles as leave its values at the points of the rule no more than
+      // f is fitted on as many cells as leave its values at the points of the rule no more than
       // the samples
       const bool fits = at_points_ <= count_;
       Eigen::VectorXd quadratic;
@@ -93,9 +136,9 @@ class LoadSamples {
   }
 
   double count() const { return count_; }
-  const Eigen::Vector3d& integrals() const { return sampled_; }  ///< of f (1, x, y)
-  const Eigen::Vector3d& sizes() const { return size_; }         ///< of |f| (1, |x|, |y|)
-  /// Whether the integral of |f - q| is above a quarter of that of |f|, on the triangles that are
+  const Eigen::VectorXd& integrals() const { return sampled_; }  ///< of f (1, x, y, z)
+  const Eigen::VectorXd& sizes() const { return size_; }         ///< of |f| (1, |x|, |y|, |z|)
+  /// Whether the integral of |f - q| is above a quarter of that of |f|, on the cells that are
   /// fitted. q is the quadratic that fits f best at the points of the rule.
   bool is_unseen() const { return unseen_ > 0.25 * fitted_; }
   double unseen_percent() const { return 100 * unseen_ / fitted_; }
@@ -103,48 +146,54 @@ class LoadSamples {
  private:
   static constexpr int points = 1 << 18;
 
+  Position point(int t, const ReferencePoint& lambda) const {
+    const Mesh& mesh = space_.mesh();
+    return position(mesh, t, lambda).head(mesh.dimension()).transpose();
+  }
+
   Eigen::VectorXd values_at(const Quadrature& rule, int t) {
     Eigen::VectorXd values(rule.weights.size());
-    for (Eigen::Index q = 0; q < values.size(); ++q) {
-      const Eigen::Vector2d x = point_in(space_.mesh(), t, rule.points.row(q));
-      values(q) = f_(x(0), x(1));
-    }
+    for (Eigen::Index q = 0; q < values.size(); ++q)
+      values(q) = field_value(f_, point(t, rule.points.row(q)));
     at_points_ += values.size();
     return values;
   }
 
   void add_sample(int t, bool fits, const Eigen::VectorXd& quadratic) {
     ++count_;
-    const Eigen::Vector3d lambda = spread_point(count_);
-    const Eigen::Vector2d x = point_in(space_.mesh(), t, lambda);
-    const double part = f_(x(0), x(1)) * area_ / points;
+    const ReferencePoint lambda = spread_point(count_, space_.mesh().dimension());
+    const Position x = point(t, lambda);
+    const double part = field_value(f_, x) * measure_ / points;
     if (fits) {
-      unseen_ += std::abs(part - quadratics(lambda).dot(quadratic) * area_ / points);
+      unseen_ += std::abs(part - quadratics(lambda).dot(quadratic) * measure_ / points);
       fitted_ += std::abs(part);
     }
-    sampled_ += part * Eigen::Vector3d(1, x(0), x(1));
-    size_ += std::abs(part) * Eigen::Vector3d(1, std::abs(x(0)), std::abs(x(1)));
+    sampled_ += part * affine_functions(x);
+    size_ += std::abs(part) * affine_functions(x.cwiseAbs());
   }
 
   const Space& space_;
   const Field& f_;
-  double area_;
+  double measure_;
   double count_ = 0;
   double at_points_ = 0;  ///< values of f at points of the rule
-  Eigen::Vector3d sampled_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d size_ = Eigen::Vector3d::Zero();
+  Eigen::VectorXd sampled_;
+  Eigen::VectorXd size_;
   double unseen_ = 0;  ///< the integral of |f - q|
-  double fitted_ = 0;  ///< the integral of |f| on the same triangles
+  double fitted_ = 0;  ///< the integral of |f| on the same cells
 };
 
-/// The integrals of f (1, x, y) by the quadrature: the basis sums to 1, and with the places of the
-/// unknowns as weights to x and to y.
-Eigen::Vector3d integrals_by_quadrature(const SceneFile& file, const Space& space,
+/// The integrals of f (1, x, y, z) by the quadrature: the basis sums to 1, and with the places of
+/// the unknowns as weights to x, y and z.
+Eigen::VectorXd integrals_by_quadrature(const SceneFile& file, const Space& space,
                                         const VariationalInequality& problem) {
   const bool alone = beyond_the_paper(file).empty();  // else edges and the layer load, too
   const Eigen::VectorXd load = alone ? problem.load : load_vector(space, file.scene.body().load);
   const Points& at = space.dof_coordinates();
-  return {load.sum(), load.dot(at.col(0)), load.dot(at.col(1))};
+  Eigen::VectorXd integrals(1 + at.cols());
+  integrals(0) = load.sum();
+  for (Eigen::Index k = 0; k < at.cols(); ++k) integrals(1 + k) = load.dot(at.col(k));
+  return integrals;
 }
 
 /// Whether the body beside an edge of its boundary lies above the line of this edge.
@@ -156,6 +205,24 @@ bool is_below_its_body(const TriangleMesh& mesh, int e) {
   const Eigen::Vector2d inside = mesh.vertices.row(mesh.triangles(t, local_edge(mesh, t, e)));
   const Eigen::Vector2d along = to - from, across = inside - from;
   return along(0) * across(1) - along(1) * across(0) > 0;
+}
+
+/// An edge of a facet, in the plane the facet itself.
+struct FacetEdge {
+  int facet, from, to;
+};
+
+/// The edges of the facets at which a displacement is prescribed.
+std::vector<FacetEdge> dirichlet_edges(const Mesh& mesh) {
+  std::vector<FacetEdge> edges;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (!is_dirichlet(mesh.edge_tag[e])) continue;
+    edges.push_back({e, mesh.edges(e, 0), mesh.edges(e, 1)});
+    if (mesh.dimension() == 2) continue;
+    edges.push_back({e, mesh.edges(e, 1), mesh.edges(e, 2)});
+    edges.push_back({e, mesh.edges(e, 2), mesh.edges(e, 0)});
+  }
+  return edges;
 }
 
 /// The ends of the edges with a tag at which a displacement is prescribed.
@@ -200,32 +267,41 @@ void check_gap_between_bodies(const SceneFile& file, const TwoBodyContact& betwe
     }
 }
 
-}  // namespace
-
-void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
-  const Field& f = file.scene.body().load;
-  const auto body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (!body(mesh.edge_triangles(e, 0)) && !body(mesh.edge_triangles(e, 1))) continue;
-    const Eigen::RowVector2d from = mesh.vertices.row(mesh.edges(e, 0)),
-                             to = mesh.vertices.row(mesh.edges(e, 1));
-    for (const double s : {0.0, 0.5, 1.0})
-      f((1 - s) * from(0) + s * to(0), (1 - s) * from(1) + s * to(1));
+/// Points of a facet, the corners of its parts where each of its edges is cut into `parts`.
+std::vector<Position> facet_lattice(const Mesh& mesh, int e, int parts) {
+  const auto corner = [&](int k) -> Position { return mesh.vertices.row(mesh.edges(e, k)); };
+  const Position from = corner(0), along = corner(1) - from;
+  std::vector<Position> points;
+  if (mesh.dimension() == 2) {
+    for (int i = 0; i <= parts; ++i) points.emplace_back(from + along * i / parts);
+    return points;
   }
-  if (const auto* bodies = std::get_if<TwoBodyModel>(&file.model))
-    check_gap_between_bodies(file, bodies->between, mesh);
-  if (!file.scene.contact()) return;
-  const auto& [gap, zero_at, upper_obstacle] = *file.scene.contact();
+  const Position across = corner(2) - from;
+  for (int i = 0; i <= parts; ++i)
+    for (int j = 0; i + j <= parts; ++j)
+      points.emplace_back(from + along * i / parts + across * j / parts);
+  return points;
+}
+
+/// "x", or "x, y": the place along Gamma_C.
+std::string place_on_contact(const Position& x) {
+  return fmt::format("{:.6g}", fmt::join(x.data(), x.data() + x.size() - 1, ", "));
+}
+
+/// The gap and the ceiling along Gamma_C are finite, and leave room for u, also where u is given.
+void check_contact_on_mesh(const SceneFile& file, const Mesh& mesh) {
+  const UnilateralContact& contact = *file.scene.contact();
+  const auto& [gap, zero_at, upper_obstacle] = contact;
+  const bool in_space = mesh.dimension() == 3;
+  const int parts = in_space ? 8 : 32;
   const Eigen::VectorXd values = prescribed(file, mesh);
   double largest = 0;  // |gap|: u may be in a unit in which 1e-12 is much
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
-    const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
-    for (int i = 0; i <= 32; ++i) {
-      const double x = a + (b - a) * i / 32;
-      largest = std::max(largest, std::abs(gap(x)));
+    for (const Position& x : facet_lattice(mesh, e, parts)) {
+      largest = std::max(largest, std::abs(profile_value(gap, x)));
       try {
-        check_upper_obstacle(*file.scene.contact(), x);
+        check_ceiling(contact, x(0), x(1), mesh.dimension());
       } catch (const ObstacleError& error) {
         throw InputError(file.name + ": contact.ceiling: " + error.what());
       }
@@ -233,38 +309,199 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
   }
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
-    const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
+    const Position middle = mesh.vertices(mesh.edges.row(e), Eigen::indexing::all).colwise().mean();
     for (const int v : mesh.edges.row(e)) {
-      const double x = mesh.vertices(v, 0);
+      const Position x = mesh.vertices.row(v);
       const double scale = std::max(largest, std::abs(values(v)));
       const double round_off =
-          std::min(1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))), 1e-6 * scale);
+          std::min(1e-12 * std::max(1.0, std::abs(profile_value(gap, middle))), 1e-6 * scale);
       for (const auto& [name, bound, sign] :
            {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
-        if (*bound && sign * values(v) > (*bound)(x) + round_off)
-          throw InputError(
-              fmt::format("{0}: contact.{1}: {1}({2:.6g}) = {3:.6g}, but u = {4:.6g} is prescribed "
-                          "there; accepted: "
-                          "{1} >= {5}u where Gamma_C meets an edge with a given u",
-                          file.name, name, x, (*bound)(x), values(v), sign < 0 ? "-" : ""));
+        if (*bound && sign * values(v) > profile_value(*bound, x) + round_off)
+          throw InputError(fmt::format(
+              "{0}: contact.{1}: {1}({2}) = {3:.6g}, but u = {4:.6g} is prescribed there; "
+              "accepted: {1} >= {5}u where Gamma_C meets {6} with a given u",
+              file.name, name, place_on_contact(x), profile_value(*bound, x), values(v),
+              sign < 0 ? "-" : "", in_space ? "a face" : "an edge"));
     }
   }
+}
+
+/// The point of Gamma_C at which u violates a bound by most.
+class DeepestPoint {
+ public:
+  /// `size` is the largest |u|.
+  DeepestPoint(const UnilateralContact& contact, double size)
+      : contact_(contact), size_(size), largest_(size) {}
+
+  void visit(const Position& x, double u) {
+    for (const auto& [name, bound, sign] :
+         {std::tuple("gap", &contact_.gap, -1), {"ceiling", &contact_.upper_obstacle, 1}})
+      if (*bound) {
+        const double at = profile_value(*bound, x);
+        const double depth = sign * u - at;
+        largest_ = std::max(largest_, std::abs(at));
+        if (depth > deepest_) std::tie(deepest_, where_, missed_) = std::tuple(depth, x, name);
+      }
+  }
+
+  std::string warning() const {
+    if (deepest_ <= significance * size_ || deepest_ < 1e-12 * largest_) return "";
+    return fmt::format(
+        "contact.{}: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} "
+        "deep into it at {} = {} (max |u| is {:.3g}): a finer mesh is needed there",
+        missed_, deepest_, where_.size() == 3 ? "x, y" : "x", place_on_contact(where_), size_);
+  }
+
+ private:
+  const UnilateralContact& contact_;
+  double size_;
+  double largest_;  ///< of u and its bounds
+  double deepest_ = 0;
+  Position where_;
+  const char* missed_ = "";
+};
+
+/// How many points of Gamma_C a warning asks, about.
+constexpr int contact_places = 100'000;
+
+/// Visits points between the contact unknowns and the held ends of Gamma_C, where u is linear.
+/// `held` are the values that are prescribed at vertices.
+void visit_line(const Space& space, const Eigen::VectorXd& u, const Eigen::VectorXd& held,
+                DeepestPoint& deepest) {
+  const Mesh& mesh = space.mesh();
+  std::vector<std::pair<double, double>> line;  // x and u
+  for (const int i : space.contact_dofs()) line.emplace_back(space.dof_coordinates()(i, 0), u(i));
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    for (const int v : mesh.edges.row(e))
+      if (mesh.edge_tag[e] == EdgeTag::contact && !std::isnan(held(v)))
+        line.emplace_back(mesh.vertices(v, 0), held(v));
+  std::sort(line.begin(), line.end());
+  const auto edges =
+      static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::contact));
+  const int places = std::max(32, contact_places / std::max(edges, 1));
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
+    for (int i = 0; i < places; ++i) {
+      const double x = a + (b - a) * (i + 0.5) / places;
+      const auto right = std::upper_bound(line.begin(), line.end(), std::pair(x, 0.0));
+      if (right == line.begin() || right == line.end()) continue;
+      const auto [x0, u0] = *(right - 1);
+      const auto [x1, u1] = *right;
+      deepest.visit(Eigen::RowVector2d(x, 0), x1 > x0 ? u0 + (u1 - u0) * (x - x0) / (x1 - x0) : u0);
+    }
+  }
+}
+
+/// A face of Gamma_C: its tetrahedron and the number of the face there.
+struct ContactFace {
+  int cell, local;
+};
+
+std::vector<ContactFace> contact_faces(const Mesh& mesh) {
+  std::vector<ContactFace> faces;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == EdgeTag::contact)
+      faces.push_back({mesh.edge_triangles(e, 0), local_edge(mesh, mesh.edge_triangles(e, 0), e)});
+  return faces;
+}
+
+/// V values on Gamma_C: the prescribed one, or the mean of u_h from the faces at the vertex.
+Eigen::VectorXd vertex_means(const Space& space, const Eigen::VectorXd& u,
+                             const Eigen::VectorXd& held) {
+  const Mesh& mesh = space.mesh();
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh.vertex_count()), count = sum;
+  for (const auto& [t, i] : contact_faces(mesh))
+    for (const int k : mesh.reference().facet[i]) {
+      const int v = mesh.triangles(t, k);
+      sum(v) +=
+          space.element().basis(reference_vertex(mesh.kind, k)).dot(u(space.cell_dofs().row(t)));
+      ++count(v);
+    }
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (!std::isnan(held(v)))
+      sum(v) = held(v);
+    else if (count(v) > 0)
+      sum(v) /= count(v);
+  }
+  return sum;
+}
+
+/// Visits points of the faces of Gamma_C. There u is the function that has the value of u_h at the
+/// centroid of each face and the means of u_h at the vertices, and is affine on the three triangles
+/// between them. For P1 it is u_h. Crouzeix-Raviart's u_h jumps at the edges, by no more than its
+/// error, and the bounds hold at the centroids alone.
+void visit_faces(const Space& space, const Eigen::VectorXd& u, const Eigen::VectorXd& held,
+                 DeepestPoint& deepest) {
+  const Mesh& mesh = space.mesh();
+  const std::vector<ContactFace> faces = contact_faces(mesh);
+  const Eigen::VectorXd at_vertex = vertex_means(space, u, held);
+  // each of the three triangles of a face has parts (parts + 1) / 2 points
+  const double per_triangle = contact_places / (3.0 * std::max<std::size_t>(faces.size(), 1));
+  const int parts = std::clamp(static_cast<int>(std::sqrt(2 * per_triangle)), 4, 64);
+  for (const auto& [t, i] : faces) {
+    const ReferencePoint middle = on_facet(mesh.kind, i, Eigen::Vector3d::Constant(1.0 / 3));
+    const Position centre = position(mesh, t, middle).transpose();
+    const double at_centre = space.element().basis(middle).dot(u(space.cell_dofs().row(t)));
+    const std::array<int, 3>& corners = mesh.reference().facet[i];
+    for (int k = 0; k < 3; ++k) {
+      const int v = mesh.triangles(t, corners[k]), w = mesh.triangles(t, corners[(k + 1) % 3]);
+      for (int a = 0; a < parts; ++a)
+        for (int b = 0; a + b < parts; ++b) {
+          const double to_v = (a + 1.0 / 3) / parts, to_w = (b + 1.0 / 3) / parts;
+          const double to_centre = 1 - to_v - to_w;
+          deepest.visit(
+              to_centre * centre + to_v * mesh.vertices.row(v) + to_w * mesh.vertices.row(w),
+              to_centre * at_centre + to_v * at_vertex(v) + to_w * at_vertex(w));
+        }
+    }
+  }
+}
+
+}  // namespace
+
+void check_ceiling(const UnilateralContact& contact, double x, double y, int dimension) {
+  if (dimension == 2) return check_upper_obstacle(contact, x);
+  if (!contact.upper_obstacle) return;
+  UnilateralContact on_line;  // on the line of this y
+  on_line.gap = [&](double at) { return contact.gap(at, y); };
+  on_line.upper_obstacle = [&](double at) { return contact.upper_obstacle(at, y); };
+  try {
+    check_upper_obstacle(on_line, x);
+  } catch (const ObstacleError& error) {
+    throw ObstacleError(error.which, fmt::format("{}, at y = {:.6g}", error.what(), y));
+  }
+}
+
+void check_on_mesh(const SceneFile& file, const Mesh& mesh) {
+  const Field& f = file.scene.body().load;
+  const auto body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
+  // the reader of scenes has asked the load of a mesh that is made here
+  for (int e = 0; file.mesh.from_file() && e < mesh.edge_count(); ++e) {
+    if (!body(mesh.edge_triangles(e, 0)) && !body(mesh.edge_triangles(e, 1))) continue;
+    for (const Position& x : facet_lattice(mesh, e, 2)) field_value(f, x);
+  }
+  if (const auto* bodies = std::get_if<TwoBodyModel>(&file.model))
+    check_gap_between_bodies(file, bodies->between, mesh);
+  if (file.scene.contact()) check_contact_on_mesh(file, mesh);
 }
 
 std::string load_warning(const SceneFile& file, const Space& space,
                          const VariationalInequality& problem) {
   const LoadSamples samples(space, file.scene.body().load);
-  const Eigen::Vector3d seen = integrals_by_quadrature(file, space, problem);
-  const Eigen::Vector3d& sampled = samples.integrals();
-  const Eigen::Vector3d& size = samples.sizes();
-  for (int i = 0; i < 3; ++i)
+  const Eigen::VectorXd seen = integrals_by_quadrature(file, space, problem);
+  const Eigen::VectorXd& sampled = samples.integrals();
+  const Eigen::VectorXd& size = samples.sizes();
+  for (Eigen::Index i = 0; i < seen.size(); ++i)
     if (std::abs(seen(i) - sampled(i)) > significance * std::max(size(i), std::abs(seen(i))))
       return fmt::format(
           "load.f: the quadrature of this mesh misses the load: the integral of {} is {:.3g} by "
           "the quadrature, {:.3g} "
           "by {:.0f} points (that of its absolute value {:.3g}): a finer mesh is needed where the "
           "load lives",
-          std::array{"f", "x f", "y f"}[i], seen(i), sampled(i), samples.count(), size(i));
+          std::array{"f", "x f", "y f", "z f"}[static_cast<std::size_t>(i)], seen(i), sampled(i),
+          samples.count(), size(i));
   // integrals may agree by chance: what lives between the points of the rule, triangle by triangle,
   // is seen by none
   if (samples.is_unseen())
@@ -281,45 +518,41 @@ std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh
   constexpr int parts =
       8;  // of an edge: a formula that jumps twice on one of them is a matter of the mesh
   constexpr double telling_jump = 1e-6;  // of the largest value: below, the formula's own rounding
-  const auto at = [&](int e, double s) {
-    return Eigen::RowVector2d((1 - s) * mesh.vertices.row(mesh.edges(e, 0)) +
-                              s * mesh.vertices.row(mesh.edges(e, 1)));
+  const auto at = [&](const FacetEdge& e, double s) {
+    return Position((1 - s) * mesh.vertices.row(e.from) + s * mesh.vertices.row(e.to));
   };
-  const auto value = [&](int e, double s) { return prescribed_on(file.scene, mesh, e, at(e, s)); };
-  const auto name = [&](int e) {
-    const int k = mesh.edge_tag[e].group;
+  const auto value = [&](const FacetEdge& e, double s) {
+    return prescribed_on(file.scene, mesh, e.facet, at(e, s));
+  };
+  const auto name = [&](const FacetEdge& e) {
+    const int k = mesh.edge_tag[e.facet].group;
     return k < 0 ? std::string("clamped") : file.scene.edges()[k].group;
   };
-  const auto line = [](const std::string& what, const Eigen::RowVector2d& x,
-                       const std::string& more) {
+  const auto line = [](const std::string& what, const Position& x, const std::string& more) {
     return fmt::format(
-        "edge: {} at ({:.6g}, {:.6g}){}: no function of finite energy has such values, and the "
-        "energy grows with every "
-        "refinement",
-        what, x(0), x(1), more);
+        "edge: {} at ({:.6g}){}: no function of finite energy has such values, and the energy "
+        "grows with every refinement",
+        what, fmt::join(x.data(), x.data() + x.size(), ", "), more);
   };
-  std::vector<int> held;
+  const std::vector<FacetEdge> held = dirichlet_edges(mesh);
   double largest = 0;
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (!is_dirichlet(mesh.edge_tag[e])) continue;
-    held.push_back(e);
+  for (const FacetEdge& e : held)
     for (int i = 0; i <= parts; ++i)
       largest = std::max(largest, std::abs(value(e, static_cast<double>(i) / parts)));
-  }
   const auto apart = [&](double a, double b) { return std::abs(a - b) > telling_jump * largest; };
 
-  std::map<int, std::pair<int, double>> first;  // vertex -> an edge there, and its value
-  for (const int e : held)
+  std::map<int, std::pair<FacetEdge, double>> first;  // vertex -> an edge there, and its value
+  for (const FacetEdge& e : held)
     for (const int end : {0, 1}) {
       const double here = value(e, end);
-      const auto [other, alone] = first.try_emplace(mesh.edges(e, end), e, here);
+      const auto [other, alone] = first.try_emplace(end == 0 ? e.from : e.to, e, here);
       const auto& [other_edge, there] = other->second;
       if (!alone && apart(here, there))
         return line(fmt::format("the group {} gives u = {:.6g}, the group {} gives u = {:.6g}",
                                 printable(name(other_edge)), there, printable(name(e)), here),
                     at(e, end), ", where they meet");
     }
-  for (const int e : held)
+  for (const FacetEdge& e : held)
     for (int i = 0; i < parts; ++i) {
       double low = static_cast<double>(i) / parts, high = static_cast<double>(i + 1) / parts;
       double from = value(e, low), to = value(e, high);
@@ -369,9 +602,10 @@ std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
 }
 
 std::string geometry_warning(const SceneFile& file) {
-  const auto& [kind, cells, path, refinements, geometry] = file.mesh;
-  const bool refined = refinements > 0 || file.method.accuracy;
-  if (!file.mesh.from_file() || !geometry.empty() || !refined || file.method.solver == "petsc")
+  const std::filesystem::path& path = file.mesh.file;
+  const bool refined = file.mesh.refinements > 0 || file.method.accuracy;
+  if (!file.mesh.from_file() || !file.mesh.geometry.empty() || !refined ||
+      file.method.solver == "petsc")
     return "";
   for (const char* extension : {".geo", ".brep"}) {
     const std::filesystem::path beside = path.parent_path() / (path.stem().string() + extension);
@@ -392,51 +626,13 @@ std::string geometry_warning(const SceneFile& file) {
 
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {
   if (!file.scene.contact() || traits_of(file.model).components > 1) return "";
-  const auto& [gap, zero_at, upper_obstacle] = *file.scene.contact();
-  const TriangleMesh& mesh = space.mesh();
-  const Eigen::VectorXd values = prescribed(file, mesh);
-  std::vector<std::pair<double, double>>
-      line;  // x and u_h at the contact unknowns and at the held ends of Gamma_C
-  for (const int i : space.contact_dofs())
-    line.emplace_back(space.dof_coordinates()(i, 0), solution.u(i));
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    for (const int v : mesh.edges.row(e))
-      if (mesh.edge_tag[e] == EdgeTag::contact && !std::isnan(values(v)))
-        line.emplace_back(mesh.vertices(v, 0), values(v));
-  std::sort(line.begin(), line.end());
-
-  const double size = solution.u.lpNorm<Eigen::Infinity>();
-  const auto edges =
-      static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::contact));
-  const int places = std::max(32, 100'000 / std::max(edges, 1));
-  double deepest = 0, where = 0, largest = size;  // of u and its bounds
-  const char* missed = "";
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
-    const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
-    for (int i = 0; i < places; ++i) {
-      const double x = a + (b - a) * (i + 0.5) / places;
-      const auto right = std::upper_bound(line.begin(), line.end(), std::pair(x, 0.0));
-      if (right == line.begin() || right == line.end()) continue;
-      const auto [x0, u0] = *(right - 1);
-      const auto [x1, u1] = *right;
-      const double u = x1 > x0 ? u0 + (u1 - u0) * (x - x0) / (x1 - x0) : u0;
-      for (const auto& [name, bound, sign] :
-           {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
-        if (*bound) {
-          const double at = (*bound)(x);
-          const double depth = sign * u - at;
-          largest = std::max(largest, std::abs(at));
-          if (depth > deepest) std::tie(deepest, where, missed) = std::tuple(depth, x, name);
-        }
-    }
-  }
-  if (deepest <= significance * size || deepest < 1e-12 * largest) return "";
-  return fmt::format(
-      "contact.{}: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} deep "
-      "into it at x = "
-      "{:.6g} (max |u| is {:.3g}): a finer mesh is needed there",
-      missed, deepest, where, size);
+  const Eigen::VectorXd values = prescribed(file, space.mesh());
+  DeepestPoint deepest(*file.scene.contact(), solution.u.lpNorm<Eigen::Infinity>());
+  if (space.mesh().dimension() == 3)
+    visit_faces(space, solution.u, values, deepest);
+  else
+    visit_line(space, solution.u, values, deepest);
+  return deepest.warning();
 }
 
 std::string range_warning(const SceneFile& file, const Space& space, const Solution& solution) {
@@ -451,8 +647,8 @@ std::string range_warning(const SceneFile& file, const Space& space, const Solut
     return "";
   const TriangleMesh& mesh = space.mesh();
   const int per_edge =
-      space.element().dofs_per_edge();  // the first unknowns, as none are at vertices
-  Eigen::AlignedBox1d around, inside;   // u_h at the edges around the layer, and within it
+      space.element().dofs_per_facet();  // the first unknowns, as none are at vertices
+  Eigen::AlignedBox1d around, inside;    // u_h at the edges around the layer, and within it
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (const int t = mesh.edge_triangles(e, 0);
         mesh.region[t] == Region::layer || mesh.edge_tag[e] == EdgeTag::sigma)

@@ -8,18 +8,22 @@
 
 namespace antilock {
 
-/// Evaluates the load at the vertices and edge midpoints of the body, and the bounds gap and
-/// ceiling along Gamma_C, the contact boundary, or along the slave side of two bodies. Throws
+/// Throws ObstacleError where the ceiling is below the obstacle at x, in space at (x, y)
+/// (check_upper_obstacle, scene/scene.hpp).
+void check_ceiling(const UnilateralContact& contact, double x, double y, int dimension);
+
+/// Evaluates the load at the vertices and edge midpoints of a body from a file, and the bounds gap
+/// and ceiling along Gamma_C, the contact boundary, or along the slave side of two bodies. Throws
 /// Error, `FILE: KEY: ...`, where one of them has no finite value, where the ceiling is below the
 /// obstacle, and where displacements prescribed at a vertex of Gamma_C, or at one place of both
 /// bodies, violate one of the bounds.
 void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh);
 
 /// Returns a warning if the quadrature misses a part of the load f, else an empty text. The
-/// integrals of f, x f and y f over the body are compared with those of at least 250,000 points
-/// spread over all triangles. The warning names an integral that differs by more than a twentieth
-/// of the integral of its absolute value. There is a warning, too, if f is far from q, the
-/// quadratic that fits it best at the quadrature points of a triangle: if the integral of |f - q|
+/// integrals of f, x f, y f and, in space, z f over the body are compared with those of at least
+/// 250,000 points spread over all cells. The warning names an integral that differs by more than a
+/// twentieth of the integral of its absolute value. There is a warning, too, if f is far from q,
+/// the quadratic that fits it best at the quadrature points of a cell: if the integral of |f - q|
 /// is more than a quarter of that of |f|. A spike that lies between all of the points is not
 /// detected.
 std::string load_warning(const SceneFile& file, const Space& space,

@@ -1,6 +1,7 @@
 #include "antilock/runner/scene_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <toml++/toml.h>
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "antilock/core/plain_text.hpp"
 #include "antilock/measure/point_values.hpp"
 #include "antilock/runner/expression.hpp"
+#include "antilock/runner/scene_checks.hpp"
 #include "antilock/runner/scene_keys.hpp"
 #include "antilock/runner/toml_depth.hpp"
 
@@ -56,6 +58,12 @@ class Section {
 
   /// Here and below: where the key is absent, what its row has for that.
   std::string text(const std::string& key) const { return text(key, row(key).accepted); }
+  std::string text(const std::string& key, const std::string& accepted) const {
+    if (const auto& otherwise = row(key).otherwise; otherwise && !has(key)) return *otherwise;
+    const auto value = table_[key].value_exact<std::string>();
+    if (!value) refuse(key, what_stands_there(key) + "; accepted: " + accepted);
+    return *value;
+  }
   std::string one_of(const std::string& key) const {
     const Names& accepted = row(key).choices;
     const std::string list = fmt::format("\"{}\"", fmt::join(accepted, "\", \""));
@@ -82,16 +90,17 @@ class Section {
     if (!std::isfinite(*value)) refuse(key, "is not finite; accepted: a number, " + accepted);
     return *value + 0.0;  // -0.0 becomes 0.0
   }
-  int count(const std::string& key, int most) const {
-    const std::string accepted = fmt::format("; accepted: a whole number, 1 to {}", most);
+  int count(const std::string& key, int most, int least = 1) const {
+    const std::string accepted = fmt::format("; accepted: a whole number, {} to {}", least, most);
     const auto value = table_[key].value_exact<std::int64_t>();
     if (!value) refuse(key, what_stands_there(key) + accepted);
-    if (*value < 1 || *value > most)
+    if (*value < least || *value > most)
       refuse(key, fmt::format("{} is out of range{}", *value, accepted));
     return static_cast<int>(*value);
   }
   int count(const std::string& key) const {
-    return count(key, static_cast<int>(row(key).range->most));
+    const SceneKey::Range& range = *row(key).range;
+    return count(key, static_cast<int>(range.most), static_cast<int>(range.least));
   }
 
   /// [key]; empty where it is absent.
@@ -116,12 +125,6 @@ class Section {
   }
 
  private:
-  std::string text(const std::string& key, const std::string& accepted) const {
-    if (const auto& otherwise = row(key).otherwise; otherwise && !has(key)) return *otherwise;
-    const auto value = table_[key].value_exact<std::string>();
-    if (!value) refuse(key, what_stands_there(key) + "; accepted: " + accepted);
-    return *value;
-  }
   std::string what_stands_there(const std::string& key) const {
     const toml::node* node = table_.get(key);
     if (node == nullptr) return "is missing";
@@ -165,11 +168,16 @@ toml::table parse(const std::string& text, const std::string& name) {
   }
 }
 
+/// A point as text, by as many coordinates as the scene has.
+std::string place_text(const Eigen::Vector3d& x, int dimension) {
+  return fmt::format("({:g})", fmt::join(x.data(), x.data() + dimension, ", "));
+}
+
 /// A field or a profile: a text that does not parse, or a value that is not finite, is refused with
 /// the file and the key.
 auto named(const Section& section, const std::string& key,
-           const std::vector<std::string>& variables) {
-  const std::string text = section.text(key);
+           const std::vector<std::string>& variables, const std::string& accepted) {
+  const std::string text = section.text(key, accepted);
   const auto naming = [where = section.where(key)](const auto& ask) {
     try {
       return ask();
@@ -181,18 +189,37 @@ auto named(const Section& section, const std::string& key,
     return naming([&] { return f(at...); });
   };
 }
-Field field(const Section& section, const std::string& key) {
-  return [f = named(section, key, {"x", "y"})](double x, double y) { return f(x, y); };
+std::string formula_in(const Names& variables) {
+  return "an expression in " + in_words(variables) + " in quotes";
 }
-Profile profile(const Section& section, const std::string& key) {
-  return [f = named(section, key, {"x"})](double x) { return f(x); };
+/// A function of x and y, in space of x, y and z.
+Field field(const Section& section, const std::string& key, int dimension) {
+  if (dimension == 3) {
+    const Names variables{"x", "y", "z"};
+    return [f = named(section, key, variables, formula_in(variables))](
+               double x, double y, double z) { return f(x, y, z); };
+  }
+  return [f = named(section, key, {"x", "y"}, section.row(key).accepted)](double x, double y) {
+    return f(x, y);
+  };
+}
+/// A function of x, in space of x and y.
+Profile profile(const Section& section, const std::string& key, int dimension) {
+  if (dimension == 3) {
+    const Names variables{"x", "y"};
+    return [f = named(section, key, variables, formula_in(variables))](double x, double y) {
+      return f(x, y);
+    };
+  }
+  return [f = named(section, key, {"x"}, section.row(key).accepted)](double x) { return f(x); };
 }
 /// The same where negative values are refused, and 0 unless `zero_too`.
-Field field_above(const Field& f, const std::string& where, bool zero_too) {
-  return [=](double x, double y) {
-    const double value = f(x, y);
+Field field_above(const Field& f, const std::string& where, bool zero_too, int dimension) {
+  return [=](double x, double y, double z) {
+    const double value = f(x, y, z);
     if (value < 0 || (value == 0 && !zero_too))
-      throw InputError(fmt::format("{}is {:g} at ({:g}, {:g}); accepted: {} 0", where, value, x, y,
+      throw InputError(fmt::format("{}is {:g} at {}; accepted: {} 0", where, value,
+                                   place_text({x, y, z}, dimension),
                                    zero_too ? "at least" : "above"));
     return value;
   };
@@ -200,30 +227,47 @@ Field field_above(const Field& f, const std::string& where, bool zero_too) {
 
 /// Asked on grids of the closed unit square that share few places, with every x and y of one or two
 /// decimals or of a denominator up to 6: there the poles of formulas written by hand are met.
-void sample_load(const Field& f) {
+void sample_square(const Field& f) {
   for (const int n : {100, 120, 128})
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) f(static_cast<double>(i) / n, static_cast<double>(j) / n);
 }
-void sample_profile(const Profile& gap) {
+/// The same of the unit cube, with coordinates of one decimal, of twentieths, and of a denominator
+/// up to 6 or of 8.
+void sample_cube(const Field& f) {
+  for (const int n : {20, 24, 30})
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j)
+        for (int k = 0; k <= n; ++k)
+          f(static_cast<double>(i) / n, static_cast<double>(j) / n, static_cast<double>(k) / n);
+}
+void sample_load(const Field& f, int dimension) {
+  if (dimension == 3)
+    sample_cube(f);
+  else
+    sample_square(f);
+}
+/// A profile along the side of the square, or over the lowest face of the cube.
+void sample_profile(const Profile& profile, int dimension) {
+  if (dimension == 3) return sample_square(profile);
   for (const int n : {1000, 3840, 4096})
-    for (int i = 0; i <= n; ++i) gap(static_cast<double>(i) / n);
+    for (int i = 0; i <= n; ++i) profile(static_cast<double>(i) / n);
 }
 
-Body read_body(const Section& root) {
+Body read_body(const Section& root, int dimension) {
   const Section load = root.section("load"), body = root.section("body");
   load.only_its_keys();
-  Body read{field(load, "f")};
+  Body read{field(load, "f", dimension)};
   body.only_its_keys();
   if (root.has("body") && !body.table()["stiffness"].is_table())  // a table: read_groups
-    read.stiffness = field_above(field(body, "stiffness"), body.where("stiffness"), false);
+    read.stiffness =
+        field_above(field(body, "stiffness", dimension), body.where("stiffness"), false, dimension);
   return read;
 }
 
 /// `stiffness = { left = 1, right = 10 }`: the surfaces of the file and their numbers, found by
 /// place.
-void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGroups& groups,
-                 Body& read) {
+void read_groups(const Section& body, const MeshRequest& mesh, ExtraGroups& groups, Body& read) {
   if (!body.table()["stiffness"].is_table()) return;
   std::vector<double> numbers;
   const Section section = body.section("stiffness");
@@ -239,18 +283,21 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGr
     std::optional<PointValues> places;
   };
   read.stiffness = [=, parts = std::make_shared<Parts>(), where = body.where("stiffness")](
-                       double x, double y) {
-    if (!parts->places)  // asked for the first time
-      parts->places.emplace(Space(read_msh(mesh.string(), groups, &parts->part), p1()));
-    auto at = parts->places->locate({x, y, 0}, 1e-9);
-    if (!at)
-      at = parts->places->locate(
-          {x, y, 0}, 0.5);  // beside the file's polygon, where refinement follows a curve
+                       double x, double y, double z) {
+    if (!parts->places) {  // asked for the first time
+      Mesh read_again = read_msh(mesh.file.string(), groups, &parts->part);
+      const CellKind kind = read_again.kind;
+      parts->places.emplace(Space(std::move(read_again), p1(kind)));
+    }
+    const Eigen::Vector3d place(x, y, z);
+    auto at = parts->places->locate(place, 1e-9);
+    if (!at)  // beside the file's polygon, where refinement follows a curve
+      at = parts->places->locate(place, 0.5);
     const int part = at ? parts->part[at->triangle] : -1;
     if (part < 0)
       throw InputError(fmt::format(
-          "{}names no group of the surface at ({:g}, {:g}); accepted: all groups of the body",
-          where, x, y));
+          "{}names no group of the {} at {}; accepted: all groups of the body", where,
+          mesh.dimension == 3 ? "volume" : "surface", place_text(place, mesh.dimension)));
     return numbers[part];
   };
 }
@@ -280,17 +327,17 @@ TwoBodyContact read_interface(const Section& section, ExtraGroups& groups,
   TwoBodyContact contact;
   contact.slave = side("slave");
   contact.master = side("master");
-  contact.gap = [gap = profile(section, "gap")](double x, double) { return gap(x); };
+  contact.gap = [gap = profile(section, "gap", 2)](double x, double) { return gap(x); };
   if (section.one_of("method") == "node to segment")
     contact.method = InterfaceMethod::node_to_segment;
   groups.needs_contact = false;
   return contact;
 }
 
-UnilateralContact read_contact(const Section& section) {
+UnilateralContact read_contact(const Section& section, int dimension) {
   section.only_its_keys();
-  UnilateralContact contact{profile(section, "gap")};
-  if (section.has("ceiling")) contact.upper_obstacle = profile(section, "ceiling");
+  UnilateralContact contact{profile(section, "gap", dimension)};
+  if (section.has("ceiling")) contact.upper_obstacle = profile(section, "ceiling", dimension);
   return contact;
 }
 
@@ -337,7 +384,7 @@ double read_scaled_stiffness(const Section& section, double thickness) {
   return s;
 }
 
-Layer read_layer(const Section& section) {
+Layer read_layer(const Section& section, int dimension) {
   section.only_its_keys();
   const std::string model = section.one_of("model");
   const bool has_thickness = section.has("thickness") || section.has("stiffness");
@@ -352,12 +399,12 @@ Layer read_layer(const Section& section) {
   if (model == "thin") return ThinLayer{epsilon};
   StiffLayer layer{epsilon};
   if (has_thickness) layer.s = read_scaled_stiffness(section, epsilon);
-  if (section.has("load")) layer.load = field(section, "load");
+  if (section.has("load")) layer.load = field(section, "load", dimension);
   return layer;
 }
 
-std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections,
-                                          ExtraGroups& groups) {
+std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections, ExtraGroups& groups,
+                                          int dimension) {
   using Kind = BoundaryCondition::Kind;
   std::vector<BoundaryCondition> edges;
   for (const Section& section : sections) {
@@ -377,8 +424,9 @@ std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections,
       if (section.has(key)) {
         ++conditions;
         edge.kind = kind;
-        edge.value = field(section, key);
-        if (kind == Kind::spring) edge.value = field_above(edge.value, section.where(key), true);
+        edge.value = field(section, key, dimension);
+        if (kind == Kind::spring)
+          edge.value = field_above(edge.value, section.where(key), true, dimension);
       }
     if (conditions != 1)
       section.refuse(
@@ -394,19 +442,31 @@ std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections,
   return edges;
 }
 
-std::vector<Eigen::Vector2d> read_points(const Section& section) {
+/// A list of as many numbers as there are coordinates; nothing for another entry.
+std::optional<Eigen::Vector3d> read_point(const toml::node& node, int dimension) {
+  const toml::array* numbers = node.as_array();
+  if (numbers == nullptr || numbers->size() != static_cast<std::size_t>(dimension)) return {};
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (int k = 0; k < dimension; ++k) {
+    const auto value = (*numbers)[static_cast<std::size_t>(k)].value<double>();
+    if (!value || !std::isfinite(*value)) return {};
+    point(k) = *value;
+  }
+  return point;
+}
+
+std::vector<Eigen::Vector3d> read_points(const Section& section, int dimension) {
   section.only_its_keys();
-  const std::string accepted = "; accepted: " + section.row("points").accepted;
+  const std::string accepted =
+      "; accepted: " + (dimension == 3 ? "a list of places, as [[0.25, 0.5, -1.0]]"
+                                       : section.row("points").accepted);
   const toml::array* list = section.table()["points"].as_array();
   if (list == nullptr) section.refuse("points", "is no list" + accepted);
-  std::vector<Eigen::Vector2d> points;
+  std::vector<Eigen::Vector3d> points;
   for (const toml::node& node : *list) {
-    const toml::array* pair = node.as_array();
-    const auto x = pair != nullptr && pair->size() == 2 ? (*pair)[0].value<double>() : std::nullopt;
-    const auto y = x ? (*pair)[1].value<double>() : std::nullopt;
-    if (!y || !std::isfinite(*x) || !std::isfinite(*y))
-      section.refuse("points", "has an entry that is no place" + accepted);
-    points.emplace_back(*x, *y);
+    const std::optional<Eigen::Vector3d> point = read_point(node, dimension);
+    if (!point) section.refuse("points", "has an entry that is no place" + accepted);
+    points.push_back(*point);
   }
   return points;
 }
@@ -416,9 +476,10 @@ void read_loading(const Section& section, const std::optional<UnilateralContact>
                   BlockLoading& block) {
   block.prescribed_displacement = section.number("push");
   if (section.has("friction"))
-    block.friction = [bound = field_above(
-                          [of = profile(section, "friction")](double x, double) { return of(x); },
-                          section.where("friction"), true)](double x) { return bound(x, 0); };
+    block.friction =
+        [bound =
+             field_above([of = profile(section, "friction", 2)](double x, double) { return of(x); },
+                         section.where("friction"), true, 2)](double x) { return bound(x, 0); };
   if (contact) block.gap = contact->gap;
 }
 
@@ -475,7 +536,23 @@ SceneModel read_model(const Section& section, const std::optional<UnilateralCont
   return read_coating(section, contact, *stiff);
 }
 
+/// The largest numbers of cells per unit side; those in space are of mesh/generate.hpp, too.
 constexpr int most_structured = 2048, most_unstructured = 512;
+constexpr int most_structured_in_space = 128, most_unstructured_in_space = 64;
+
+int most_cells(const MeshRequest& mesh) {
+  const bool in_space = mesh.dimension == 3;
+  if (mesh.kind == "structured") return in_space ? most_structured_in_space : most_structured;
+  return in_space ? most_unstructured_in_space : most_unstructured;
+}
+
+/// The keys of a mesh of triangles.
+void check_mesh_in_space(const Section& section) {
+  for (const char* key : {"geometry", "refinements"})
+    if (section.has(key))
+      section.refuse(key, std::string("does not go with a mesh of tetrahedra; accepted: no ") +
+                              key + ", or dimension = 2");
+}
 
 MeshRequest read_mesh(const Section& section, const std::filesystem::path& folder) {
   section.only_its_keys();
@@ -493,12 +570,16 @@ MeshRequest read_mesh(const Section& section, const std::filesystem::path& folde
                                mesh.from_file() ? "file alone" : "with kind = \"file\" only"));
   if (mesh.from_file()) {
     mesh.file = path_of("file");
+    mesh.dimension = named_dimension(mesh.file.string());
+    if (section.has("dimension")) mesh.dimension = section.count("dimension");
+    if (mesh.dimension == 3) check_mesh_in_space(section);
     if (section.has("geometry")) mesh.geometry = path_of("geometry");
   } else {
     if (section.has("geometry"))
       section.refuse("geometry", "goes with a mesh file only; accepted: with kind = \"file\"");
-    mesh.cells =
-        section.count("cells", mesh.kind == "structured" ? most_structured : most_unstructured);
+    if (section.has("dimension")) mesh.dimension = section.count("dimension");
+    if (mesh.dimension == 3) check_mesh_in_space(section);
+    mesh.cells = section.count("cells", most_cells(mesh));
   }
   if (!section.has("refinements")) return mesh;
   mesh.refinements = section.count("refinements");
@@ -541,6 +622,33 @@ MethodRequest read_method(const Section& section) {
                          ? section.number("tolerance")
                          : std::min(MethodRequest::roughest_tolerance, 1e-2 * *method.accuracy);
   return method;
+}
+
+/// Refuses the parts of a scene that are for the plane alone. They are read later, so that the
+/// reason is not a formula of theirs.
+void check_in_space(const Section& root) {
+  const auto refuse = [&](const std::string& key, const std::string& what,
+                          const std::string& accepted) {
+    root.refuse(key, what + " does not go with a mesh of tetrahedra; accepted: " + accepted);
+  };
+  const Section model = root.section("model"), method = root.section("method");
+  if (model.has("kind") && model.one_of("kind") != AntiPlaneModel::traits.name)
+    refuse("model.kind", "\"plane strain\"", "\"anti-plane\"");
+  if (const Section layer = root.section("layer"); layer.one_of("model") == "ventcel")
+    refuse("layer.model", "\"ventcel\"", "\"scaled\", \"thin\"");
+  if (is_between_bodies(root.section("contact")))
+    refuse("contact", "the contact of two bodies", "a gap, a ceiling");
+  for (const char* key : {"accuracy", "of", "most_unknowns"})
+    if (method.has(key)) refuse(std::string("method.") + key, "an accuracy", "none");
+  const std::string element = method.one_of("element"), solver = method.one_of("solver");
+  const std::string quoted = "\"" + element + "\"";
+  if (element != "P1" && element != "P2" && element != "CR")
+    refuse("method.element", quoted, "\"P1\", \"P2\", \"CR\"");
+  if (element == "P2" && root.has("contact"))
+    root.refuse("method.element",
+                "\"P2\" on tetrahedra does not go with a contact, since its forces at vertices are "
+                "no pressures; accepted: \"P1\", \"CR\"");
+  if (solver == "petsc") refuse("method.solver", "\"petsc\"", "\"active-set\", \"uzawa\"");
 }
 
 /// What one section leaves out because of another.
@@ -625,6 +733,7 @@ bool has_contact(const SceneFile& file) {
 }
 
 std::string beyond_the_paper(const SceneFile& file) {
+  if (file.mesh.dimension == 3) return "three dimensions";
   return std::visit([&](const auto& model) { return model.beyond_the_paper(file.scene); },
                     file.model);
 }
@@ -653,38 +762,42 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   std::ostringstream words;
   words << toml::json_formatter{table};
   const MeshRequest mesh = read_mesh(root.section("mesh"), path.parent_path());
+  const int dimension = mesh.dimension;
+  if (dimension == 3) check_in_space(root);
   const bool unit_square = !mesh.from_file();  // what a file holds is known when it is read
-  Body body = read_body(root);
-  if (unit_square) sample_load(body.load);
+  Body body = read_body(root, dimension);
+  if (unit_square) sample_load(body.load, dimension);
   ExtraGroups groups;
-  std::vector<BoundaryCondition> edges = read_edges(root.sections("edge"), groups);
+  std::vector<BoundaryCondition> edges = read_edges(root.sections("edge"), groups, dimension);
   if (unit_square && !groups.curves.empty())
     root.refuse("edge", "names groups of a mesh file; accepted: with kind = \"file\" only");
-  const Layer layer = root.has("layer") ? read_layer(root.section("layer")) : NoLayer{};
+  const Layer layer = root.has("layer") ? read_layer(root.section("layer"), dimension) : NoLayer{};
   std::optional<UnilateralContact> contact;
   std::optional<TwoBodyContact> between;
   if (root.has("contact") && is_between_bodies(root.section("contact")))
     between = read_interface(root.section("contact"), groups, edges);
   else if (root.has("contact"))
-    contact = read_contact(root.section("contact"));
+    contact = read_contact(root.section("contact"), dimension);
   if (between && unit_square)
     root.refuse("contact", "names groups of a mesh file; accepted: with kind = \"file\" only");
-  read_groups(root.section("body"), mesh.file, groups, body);
+  read_groups(root.section("body"), mesh, groups, body);
   if (unit_square && !groups.bodies.empty())
     root.refuse("body", "names groups of a mesh file; accepted: with kind = \"file\" only");
-  if (contact && unit_square) sample_profile(contact->gap);
-  if (contact && contact->upper_obstacle && unit_square) sample_profile(contact->upper_obstacle);
+  if (contact && unit_square) sample_profile(contact->gap, dimension);
+  if (contact && contact->upper_obstacle && unit_square)
+    sample_profile(contact->upper_obstacle, dimension);
   const SceneModel model = read_model(root.section("model"), contact, between, layer);
-  if (contact && (!unit_square || traits_of(model).free_sides)) contact->zero_at.clear();
+  const bool clamped_ends = unit_square && dimension == 2 && !traits_of(model).free_sides;
+  if (contact && !clamped_ends) contact->zero_at.clear();  // check_on_mesh asks all held places
   const MethodRequest method = read_method(root.section("method"));
   const Scene scene = [&] {
     try {
       Scene made(body, layer, contact, edges);
-      if (contact && unit_square)
-        sample_profile([&](double x) {
-          check_upper_obstacle(*contact, x);
-          return 0.0;
-        });
+      const auto ceiling_above_gap = [&](double x, double y) {
+        check_ceiling(*contact, x, y, dimension);
+        return 0.0;
+      };
+      if (contact && unit_square) sample_profile(ceiling_above_gap, dimension);
       return made;
     } catch (const ObstacleError&
                  error) {  // what is left for the scene to refuse: what no clamped end can keep
@@ -694,8 +807,8 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   }();
   check_together(root, scene, mesh, method);
   std::visit([&](const auto& kind) { check_model(root, kind, scene, method); }, model);
-  const auto points =
-      root.has("at") ? read_points(root.section("at")) : std::vector<Eigen::Vector2d>();
+  std::vector<Eigen::Vector3d> points;
+  if (root.has("at")) points = read_points(root.section("at"), dimension);
   return {name, title, scene, mesh, method, words.str(), groups, points, model};
 }
 

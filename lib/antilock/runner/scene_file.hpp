@@ -19,7 +19,10 @@ struct MeshRequest {
   int refinements = 0;
   /// With a mesh file: the .geo or .brep file whose curves the refined boundary follows.
   std::filesystem::path geometry = {};
+  /// 2: triangles; 3: tetrahedra. Without the key it is that of the names in the mesh file.
+  int dimension = 2;
   bool from_file() const { return kind == "file"; }
+  CellKind cell_kind() const { return dimension == 3 ? CellKind::tetrahedron : CellKind::triangle; }
 };
 
 /// The section [method] of a scene file.
@@ -53,7 +56,8 @@ struct SceneFile {
   std::string json;
   /// The groups of the mesh file that [[edge]] and a table of stiffnesses name.
   ExtraGroups groups = {};
-  std::vector<Eigen::Vector2d> at = {};  ///< points at which the summary gives u
+  /// Points at which the summary gives u; z = 0 in the plane.
+  std::vector<Eigen::Vector3d> at = {};
   SceneModel model = {};
 };
 
@@ -70,8 +74,8 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
 bool has_contact(const SceneFile& file);
 
 /// Returns the name of a feature that the problem of [SR04] (cited in
-/// problem/variational_inequality.hpp) does not have: plane strain, or the one of
-/// Scene::beyond_the_paper. The text is empty if the scene has no such feature.
+/// problem/variational_inequality.hpp) does not have: three dimensions, plane strain, or the one
+/// of Scene::beyond_the_paper. The text is empty if the scene has no such feature.
 std::string beyond_the_paper(const SceneFile& file);
 
 /// Throws Error, `FILE: WHO: ...`, for a scene with such a feature.

@@ -181,15 +181,23 @@ std::vector<SceneKey> mesh_keys() {
        .comment = "cells per unit side; with kind = \"file\" instead: file = \"my.msh\", beside the scene"},
       {.section = "mesh", .name = "file", .type = Type::path, .does = "the mesh, with kind = \"file\"",
        .accepted = path_of("a MSH file, 2.2 or 4.1")},
+      {.section = "mesh", .name = "dimension", .type = Type::count,
+       .does = "3: the body is the cube, its cells are tetrahedra; formulas are in x, y and z, a gap in x and y",
+       .otherwise = "2", .accepted = "2 or 3", .range = SceneKey::Range{2, 3},
+       .line = 3, .example = "2",
+       .comment = "optional: 3 is the body (0,1)^3 of tetrahedra over the layer (0,1)^2 x (-1,0); z runs\n"
+                  "across the layer, formulas are in x, y and z, gap and ceiling in x and y, [at] has\n"
+                  "[[x, y, z]]; cells up to 128 (structured) or 64; elements \"P1\", \"CR\", \"P2\" (without\n"
+                  "contact). A file that names a group of volumes is in space without this key"},
       {.section = "mesh", .name = "geometry", .type = Type::path,
        .does = "the geometry that the mesh file was made from: refinement returns to its curves",
        .accepted = path_of("a .geo or .brep file"),
-       .line = 3, .example = "\"my.geo\"",
+       .line = 4, .example = "\"my.geo\"",
        .comment = "optional, with a file: the .geo or .brep that the mesh was made from, beside the scene"},
       {.section = "mesh", .name = "refinements", .type = Type::count,
        .does = "how often every triangle is cut into four", .otherwise = "0", .accepted = "1 to 10",
        .range = SceneKey::Range{1, 10},
-       .line = 4, .example = "2",
+       .line = 5, .example = "2",
        .comment = "optional: every triangle of that mesh is cut into four so many times; with \"petsc\" each\n"
                   "rank refines its own strip of a small mesh"},
   };

@@ -57,7 +57,7 @@ struct AntiPlaneModel {
   /// contact.
   void write_picture(const std::filesystem::path& path, const Result& result,
                      const Eigen::VectorXd& pressure) const;
-  /// Returns the subcommand of `render` that draws the solution.
+  /// Returns the subcommand of `render` that draws the solution in the plane.
   const char* picture(bool mesh_from_file) const { return mesh_from_file ? "plan" : "surface"; }
 };
 

@@ -1,6 +1,7 @@
 #include "antilock/runner/scene_results.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -109,6 +110,11 @@ Json certificate(const MethodRequest& method, const CertifiedSolution& certified
 
 /// Normal and tangential force, the moment, and the intervals that are proved.
 Json contact_force_of(const ContactForce& force, const std::optional<ContactForceBounds>& proved) {
+  if (force.moment_y)
+    return {{"normal", finite("the contact force", force.normal)},
+            {"moment", finite("the moment of the contact force", force.moment)},
+            {"moment_y", finite("the moment of the contact force", *force.moment_y)},
+            {"unit", "that of f times length^3; of the moments times length^4"}};
   return {{"normal", finite("the contact force", force.normal)},
           {"normal_proved", or_null(proved ? Interval(proved->normal) : Interval())},
           {"tangential", or_null(force.tangential)},
@@ -144,16 +150,49 @@ std::string proved_text_of(const Interval& interval) {
   return text_of(interval) + (interval ? " (proved)" : "");
 }
 
-/// x, gap and pressure, with the tangential force per length behind them where there is friction.
-void write_contact(const std::filesystem::path& path, const Eigen::MatrixX3d& table,
-                   const std::optional<Eigen::VectorXd>& friction) {
-  if (!friction) {
-    write_csv(path, {"x", "gap", "pressure"}, table);
-    return;
+/// The contact zone; in space the ranges of x and y.
+Json contact_zone_of(const ContactZone& zone, bool in_space) {
+  Json contact = {{"points", zone.points},
+                  {"active", zone.active},
+                  {"from", or_null(zone.from)},
+                  {"to", or_null(zone.to)}};
+  if (in_space) {
+    const auto& y = zone.y_range;
+    contact["y_from"] = y ? Json(y->first) : Json(nullptr);
+    contact["y_to"] = y ? Json(y->second) : Json(nullptr);
+  } else {
+    contact["from_within"] = or_null(zone.from_within);
+    contact["to_within"] = or_null(zone.to_within);
   }
-  Eigen::MatrixXd all(table.rows(), 4);
-  all << table, *friction;
-  write_csv(path, {"x", "gap", "pressure", "friction"}, all);
+  return contact;
+}
+
+/// The values at a point of [at]. `row` has its coordinates and the components of u.
+Json values_at_point(const Eigen::RowVectorXd& row, int dimension) {
+  Json here = {{"x", row(0)}, {"y", row(1)}};
+  if (dimension == 3) here["z"] = row(2);
+  if (row.size() == dimension + 1) {
+    here["u"] = row(dimension);
+  } else {
+    here["u_x"] = row(dimension);
+    here["u_y"] = row(dimension + 1);
+  }
+  return here;
+}
+
+/// x, in space y, gap and pressure, with the tangential force per length behind them where there is
+/// friction.
+void write_contact(const std::filesystem::path& path, const Eigen::MatrixXd& table,
+                   const std::optional<Eigen::VectorXd>& friction) {
+  std::vector<std::string> header{"x", "gap", "pressure"};
+  if (table.cols() == 4) header.insert(header.begin() + 1, "y");
+  Eigen::MatrixXd all = table;
+  if (friction) {
+    header.emplace_back("friction");
+    all.conservativeResize(Eigen::NoChange, table.cols() + 1);
+    all.rightCols<1>() = *friction;
+  }
+  write_csv(path, header, all);
 }
 
 }  // namespace
@@ -177,19 +216,20 @@ SceneSummary summary_of(const SceneFile& file, const Result& result,
     s.proved_force = contact_force_bounds(file.scene, result, certified->certificate);
   }
   const Eigen::Index size = result.space.size(), components = solution.u.size() / size;
-  s.at.resize(static_cast<Eigen::Index>(file.at.size()), 2 + components);
+  const Eigen::Index d = result.space.mesh().dimension();
+  s.at.resize(static_cast<Eigen::Index>(file.at.size()), d + components);
   if (s.at.rows() > 0) {
     const PointValues values(result.space);
     for (Eigen::Index i = 0; i < s.at.rows(); ++i) {
-      const Eigen::Vector2d& x = file.at[i];
-      const auto place = values.locate({x(0), x(1), 0}, 1e-9);
+      const Eigen::Vector3d& x = file.at[i];
+      const auto place = values.locate(x, 1e-9);
       if (!place)
         throw Error(fmt::format(
-            "{}: at.points: ({:g}, {:g}) is outside the mesh; accepted: points of body and layer",
-            file.name, x(0), x(1)));
-      s.at.row(i).head<2>() = x;
+            "{}: at.points: ({:g}) is outside the mesh; accepted: points of body and layer",
+            file.name, fmt::join(x.data(), x.data() + d, ", ")));
+      s.at.row(i).head(d) = x.head(d).transpose();
       for (Eigen::Index k = 0; k < components; ++k)
-        s.at(i, 2 + k) = values.value(solution.u.segment(k * size, size), *place);
+        s.at(i, d + k) = values.value(solution.u.segment(k * size, size), *place);
     }
   }
   s.kkt = solution.kkt;
@@ -212,8 +252,9 @@ std::optional<std::pair<double, double>> proved_compliance(const CertifiedSoluti
 
 std::string force_table(const SceneFile& file, const SceneSummary& summary,
                         const CertifiedSolution* certified) {
-  const std::string force_unit = "that of f times length^2";
-  const std::string moment_unit = "that of f times length^3";
+  const int d = file.mesh.dimension;
+  const std::string force_unit = fmt::format("that of f times length^{}", d);
+  const std::string moment_unit = fmt::format("that of f times length^{}", d + 1);
   std::string table = fmt::format("  {:<22} {:>12}  {:<32} {}\n", "", "value", "interval", "unit");
   if (has_contact(file)) {
     const ContactForce& force = summary.force;
@@ -223,16 +264,24 @@ std::string force_table(const SceneFile& file, const SceneSummary& summary,
     table += table_line("contact force, upwards", force.normal, proved_text_of(normal), force_unit);
     if (force.tangential)
       table += table_line("friction, to the right", *force.tangential, "", force_unit);
-    table += table_line("moment, anticlockwise", force.moment, proved_text_of(moment), moment_unit);
+    const char* const name = force.moment_y ? "integral of x pressure" : "moment, anticlockwise";
+    table += table_line(name, force.moment, proved_text_of(moment), moment_unit);
+    if (force.moment_y)
+      table += table_line("integral of y pressure", *force.moment_y, "", moment_unit);
     const ContactZone& zone = summary.zone;
-    if (zone.from && zone.to) {
+    if (zone.from && zone.to && zone.y_range) {
+      table += table_line("contact from x", *zone.from, "", "length");
+      table += table_line("contact to x", *zone.to, "", "length");
+      table += table_line("contact from y", zone.y_range->first, "", "length");
+      table += table_line("contact to y", zone.y_range->second, "", "length");
+    } else if (zone.from && zone.to) {
       table += table_line("contact begins at", *zone.from, text_of(zone.from_within), "length");
       table += table_line("contact ends at", *zone.to, text_of(zone.to_within), "length");
     }
   }
   const Interval proved = certified != nullptr ? proved_compliance(*certified) : Interval();
   table += table_line("compliance L(u)", summary.compliance, proved_text_of(proved),
-                      "that of f u times length^2");
+                      fmt::format("that of f u times length^{}", d));
   return table;
 }
 
@@ -251,13 +300,7 @@ std::string summary_text(const SceneFile& file, const SceneSummary& summary,
   s["u_max"] = finite("the maximum", summary.u_max);
   s["u_min"] = finite("the minimum", summary.u_min);
   if (has_contact(file)) {
-    const ContactZone& zone = summary.zone;
-    s["contact"] = {{"points", zone.points},
-                    {"active", zone.active},
-                    {"from", or_null(zone.from)},
-                    {"to", or_null(zone.to)},
-                    {"from_within", or_null(zone.from_within)},
-                    {"to_within", or_null(zone.to_within)}};
+    s["contact"] = contact_zone_of(summary.zone, file.mesh.dimension == 3);
     s["contact_force"] = contact_force_of(summary.force, summary.proved_force);
     s["kkt"] = {{"min_gap", summary.kkt.min_gap},
                 {"min_pressure", summary.kkt.min_pressure},
@@ -284,17 +327,8 @@ std::string summary_text(const SceneFile& file, const SceneSummary& summary,
                      {"levels", summary.parallel->levels},
                      {"linear_iterations", summary.parallel->linear_iterations},
                      {"memory_mb", summary.parallel->memory_mb}};
-  for (Eigen::Index i = 0; i < summary.at.rows(); ++i) {
-    const auto& row = summary.at.row(i);
-    Json here = {{"x", row(0)}, {"y", row(1)}};
-    if (row.size() == 3) {
-      here["u"] = row(2);
-    } else {
-      here["u_x"] = row(2);
-      here["u_y"] = row(3);
-    }
-    s["at"].push_back(here);
-  }
+  for (Eigen::Index i = 0; i < summary.at.rows(); ++i)
+    s["at"].push_back(values_at_point(summary.at.row(i), file.mesh.dimension));
   if (certified != nullptr) s["certificate"] = certificate(file.method, *certified);
   s["warning"] = summary.warning;
   s["scene"] = question(file);
@@ -384,12 +418,12 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
     if (csv) write_solution_csv(draft / "solution.csv", result.space, result.solution.u);
     Eigen::VectorXd pressure;  // empty without contact
     if (const auto contact = contact_results(file, result)) {
-      Eigen::MatrixX3d table = contact->table;
+      Eigen::MatrixXd table = contact->table;
       const bool has_ceiling = file.scene.contact() && file.scene.contact()->upper_obstacle;
       if (!has_ceiling)  // which presses downwards: a pressure below 0
         table.rightCols<2>() =
             table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
-      if (file.scene.contact()) pressure = table.col(2);  // of the unknowns on Gamma_C
+      if (file.scene.contact()) pressure = table.rightCols<1>();  // of the unknowns on Gamma_C
       const auto friction =
           std::visit([&](const auto& model) { return model.friction_forces(result); }, file.model);
       if (csv) write_contact(draft / "contact.csv", table, friction);

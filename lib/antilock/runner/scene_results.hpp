@@ -39,7 +39,8 @@ struct SceneSummary {
   int contact_steps = 0, corrections = 0;
   std::optional<LockingReport> layer;
   std::optional<FixedPointReport> coulomb;
-  Eigen::MatrixXd at;  ///< a row per point of [at]: x, y, u, in plane strain x, y, u_x, u_y
+  /// A row per point of [at]: x, y, in space z, then u, in plane strain u_x, u_y.
+  Eigen::MatrixXd at;
   std::string warning;
   struct Parallel {
     int ranks = 0;
@@ -60,9 +61,9 @@ SceneSummary summary_of(const SceneFile& file, const Result& result,
 /// the energy times -2. The result is empty where the gap or a displacement is not 0 at an unknown.
 std::optional<std::pair<double, double>> proved_compliance(const CertifiedSolution& certified);
 
-/// Returns a table for the screen, one line per number: contact force and moment, the ends of
-/// contact, and the compliance, each with its interval, if there is one, and its unit. `certified`
-/// is given for a scene with an accuracy.
+/// Returns a table for the screen, one line per number: contact force and moments, the ends of
+/// contact (in space the ranges of x and y), and the compliance, each with its interval, if there
+/// is one, and its unit. `certified` is given for a scene with an accuracy.
 std::string force_table(const SceneFile& file, const SceneSummary& summary,
                         const CertifiedSolution* certified = nullptr);
 

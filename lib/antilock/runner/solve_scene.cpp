@@ -104,8 +104,10 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
         joined(found.result.warning, joined(polygon_warning(file, mesh), geometry_warning(file)));
     return found;
   }
-  begin(fmt::format("assembly: {} on {} triangles", method.element, mesh.triangle_count()));
-  const Space space(std::move(mesh), element(method.element));
+  begin(fmt::format("assembly: {} on {} {}", method.element, mesh.triangle_count(),
+                    mesh.reference().plural));
+  const Element& chosen = element(method.element, mesh.kind);
+  const Space space(std::move(mesh), chosen);
   if (space.free_count() == 0)
     throw InputError(
         file.name +

@@ -43,7 +43,8 @@ Result normal_contact(const Result& result);
 
 /// The contact of a solved scene, on an obstacle or between two bodies.
 struct ContactResults {
-  Eigen::MatrixX3d table;  ///< a row per bound: x, distance, pressure (measure/contact_zone.hpp)
+  /// A row per bound: x, in space y, distance, pressure (measure/contact_zone.hpp).
+  Eigen::MatrixXd table;
   ContactZone zone;
   ContactForce force;  ///< its tangential force is set for a model with friction
 };

@@ -81,7 +81,9 @@ antilock.vtuSurface = (where, name, bytes) => {
     return new Numbers(Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)).buffer.slice(8));
   };
   const points = array("points", Float64Array), u = array("u", Float64Array), corners = array("connectivity", Int32Array);
-  if (!points || !u || !corners || 3 * u.length !== points.length) return;
+  const types = array("types", Uint8Array);
+  if (!points || !u || !corners || !types || 3 * u.length !== points.length) return;
+  if (types.some((type) => type !== 5)) return;  // tetrahedra are no surface
   const figure = document.createElement("figure");
   figure.innerHTML = `<figcaption></figcaption><div class="live-canvas"><canvas tabindex="0" role="img"></canvas></div>`;
   const canvas = figure.querySelector("canvas"), turn = [-0.6, 0.6];
