@@ -123,9 +123,9 @@ py::tuple run(const std::string& text, const std::string& folder) {
   const auto given = [](auto& owned) {
     return py::cast(std::move(owned));
   };  // moved into the array, not copied
-  py::dict arrays("points"_a = answer.space.dof_coordinates(),
-                  "vertices"_a = answer.space.mesh().vertices,
-                  "triangles"_a = answer.space.mesh().triangles);
+  const Mesh& mesh = answer.space.mesh();
+  py::dict arrays("points"_a = answer.space.dof_coordinates(), "vertices"_a = mesh.vertices);
+  arrays[mesh.reference().plural] = mesh.triangles;  // "triangles" or "tetrahedra"
   if (const auto contact = contact_results(file, answer)) arrays["contact"] = contact->table;
   answer.solution.p.conservativeResize(answer.problem.parametric_row_count());
   if (answer.space.element().nodal()) {
@@ -353,7 +353,8 @@ void register_functions(py::module_& module) {
   module.def("assemble", [](const std::string& text, const std::string& folder) {
     const SceneFile file = scene_of(text, folder);
     const Unlocked unlocked;
-    return problem_of(file, Space(make_mesh(file), element(file.method.element)));
+    const Element& chosen = element(file.method.element, file.mesh.cell_kind());
+    return problem_of(file, Space(make_mesh(file), chosen));
   });
   module.def("run", &run);
   module.def("certify", &certify_scene);

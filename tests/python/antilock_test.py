@@ -51,6 +51,30 @@ def test_run_is_run_scene(tmp_path):
     assert summary["compliance"]["value"] == pytest.approx(-2 * summary["energy"])
 
 
+# (0,1)^3 over (0,1)^2 x (-1,0), six tetrahedra per cube
+IN_SPACE = SCENE.replace("[mesh]", "[mesh]\ndimension = 3").replace("cells = 16", "cells = 3")
+
+
+def test_a_scene_in_space_has_tetrahedra():
+    arrays, summary = antilock.run(IN_SPACE)
+    vertices, tetrahedra = arrays["vertices"], arrays["tetrahedra"]
+    assert vertices.shape == (4 * 4 * 7, 3) and tetrahedra.shape == (6 * 3**2 * 6, 4) and "triangles" not in arrays
+    edges = vertices[tetrahedra[:, 1:]] - vertices[tetrahedra[:, :1]]
+    assert np.linalg.det(edges).sum() / 6 == pytest.approx(2)
+    assert arrays["points"].shape == (len(arrays["u"]), 3)
+    x, y, gap, pressure = arrays["contact"].T  # CR: one bound per face of area 1/18
+    assert len(x) == 18 and gap.min() > -1e-9
+    force = summary["contact_force"]
+    for name, weight in ("normal", 1), ("moment", x), ("moment_y", y):
+        assert force[name] == pytest.approx((weight * pressure).sum() / 18)
+    problem = antilock.assemble(IN_SPACE)
+    lower = np.full(len(problem.load), -np.inf)
+    lower[problem.contact] = 0
+    solution = antilock.solve(problem.a1, problem.b, problem.m, problem.load, compliance=problem.compliance,
+                              fixed=dict.fromkeys(problem.fixed, 0.0), lower=lower)
+    assert abs(solution.u - arrays["u"]).max() <= 1e-8 * abs(arrays["u"]).max()
+
+
 def test_solve_of_the_matrices_is_run():
     problem = antilock.assemble(SCENE)
     lower = np.full(len(problem.load), -np.inf)
@@ -160,6 +184,8 @@ def test_the_certified_energies_hold_the_exact_one():
     (lambda p: antilock.run("[load]"), "mesh: is missing; accepted"),
     (lambda p: antilock.run(SCENE + 'solver = "petsc"'), "method.solver"),
     (lambda p: antilock.certify(SCENE, 2), "accepted"),
+    (lambda p: antilock.certify(IN_SPACE, 0.5), "certify: does not know three dimensions; accepted: a scene without it"),
+    (lambda p: antilock.run(IN_SPACE + 'accuracy = 0.1'), "method.accuracy: an accuracy does not go with a mesh of tetrahedra"),
 ])
 def test_refusals_are_errors_of_one_line(ask, says):
     with pytest.raises(antilock.Error) as refused:

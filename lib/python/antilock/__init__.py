@@ -87,9 +87,11 @@ def run(scene: str, folder: str = ".") -> tuple[dict[str, np.ndarray], dict[str,
 
     The mesh file and the geometry that it names are looked for in the folder. No other file is read, and nothing is run.
     points N x 2 and u N, one per unknown; p R; vertices V x 2 and triangles T x 3; contact C x 3 (x, gap, pressure).
+    With dimension = 3 in [mesh]: points N x 3, vertices V x 3 and tetrahedra T x 4; contact C x 4 (x, y, gap, pressure).
     summary["contact_force"] has the resultant of the obstacle's forces on the body: normal (upwards), tangential (to the right), moment
     (anticlockwise, about x = 0), in the unit of f times length^2 and length^3. summary["compliance"] is the work of the loads.
     normal_proved and moment_proved are proved intervals, with an accuracy and where u is prescribed at no end of the contact boundary.
+    In space it has normal, moment and moment_y, the integrals of x and of y times the pressure, in one power of length more.
     u is the value at the point. For element = "BDM1-hybrid", whose unknowns are means, mean N holds the unknowns.
     """
     arrays, summary = _antilock.run(arguments.scene(scene), arguments.folder(folder))
