@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ concept MayBeEmpty = std::is_pointer_v<Function> || requires(const Function& f) 
 class Field {
  public:
   Field() = default;
+  Field(std::nullptr_t) {}  ///< empty
   template <class Function>
   requires(!std::is_same_v<Function, Field> &&
            (std::is_invocable_r_v<double, Function&, double, double> ||
