@@ -50,6 +50,11 @@ std::string large_pages() {
 // 209e6 were seen.
 constexpr std::size_t blas_thread = 220'000'000;
 
+// Bytes that the other libraries take before OpenBLAS is loaded. On Debian 13 run_scene waited
+// without end where a limit left up to 2.6e6 bytes beside the buffer, and run_scene_petsc up to
+// 20e6. PMIx, a part of Open MPI, ended the latter with status 14 up to 30e6.
+constexpr std::size_t other_libraries = 40'000'000;
+
 /// The number of threads that OpenBLAS starts with.
 long blas_threads(char** environment) {
   for (const std::string_view variable :
@@ -74,7 +79,8 @@ void require_room_for_blas(int, char** argv, char** environment) {
   };
   if (!limited(RLIMIT_AS) && !limited(RLIMIT_DATA)) return;
   const long threads = blas_threads(environment);
-  if (can_map(blas_buffer + static_cast<std::size_t>(threads - 1) * blas_thread)) return;
+  constexpr std::size_t needed = blas_buffer + other_libraries;
+  if (can_map(needed + static_cast<std::size_t>(threads - 1) * blas_thread)) return;
   if (threads > 1) {
     constexpr int most = 4096;
     char one_thread[] = "OPENBLAS_NUM_THREADS=1";
@@ -85,11 +91,10 @@ void require_room_for_blas(int, char** argv, char** environment) {
         changed[count++] = *setting;
     execve("/proc/self/exe", argv, changed);
   }
-  if (can_map(blas_buffer)) return;  // no second start was to be had
+  if (can_map(needed)) return;  // no second start was to be had
   constexpr std::string_view line =
-      ": out of memory: the BLAS needs a buffer of 128 MB, the limit of this process (ulimit -v, "
-      "ulimit -d) leaves "
-      "less; accepted: a higher limit\n";
+      ": out of memory: the BLAS needs a buffer of 128 MB and other libraries 40 MB, the limit of "
+      "this process (ulimit -v, ulimit -d) leaves less; accepted: a higher limit\n";
   const std::string_view path = argv[0] == nullptr ? "antilock" : argv[0];
   const std::string_view name = path.substr(path.rfind('/') + 1);
   [[maybe_unused]] const auto written =
