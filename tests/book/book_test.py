@@ -258,7 +258,7 @@ class EveryPage(Book):
             self.assertIn(kind, seen)
 
     def test_chapters_follow_each_other_in_the_order_of_the_parts(self):
-        chapters = [name for part in read_course() for name in part.chapters]
+        chapters = [name for part in read_course() for name in part.pages]
         self.assertEqual(sorted(chapters), [page for page in PAGES if page[:2].isdigit()])
         tree = "return [...document.querySelectorAll(arguments[0])].map((link) => link.getAttribute('href'))"
         self.show("index")

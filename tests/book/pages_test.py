@@ -77,6 +77,18 @@ int main() {
   // :live: convergence
   return 0;
 }
+// :page: 07_more
+// # Its second page
+//
+// **Afterwards you can** turn a page.
+//
+// Words on the second page.
+// :figure: second
+//
+// ## Exercises
+//
+// 3. On paper, too.
+void more() {}
 """,
     "27_later": """// # A third chapter
 //
@@ -141,7 +153,8 @@ def small_repository(root):
                                                        "07_middle --exercise 1,40,,\n")
     (root / "tutorials/07_middle/answers.hpp").write_text(
         "#pragma once\n// The answers to the exercises.\nint answer();\n\n"
-        "// ## Answers on paper\n//\n// **2.** By chapter 00, $x = 1$.\n")
+        "// ## Answers on paper\n//\n// **2.** By chapter 00, $x = 1$.\n"
+        "//\n// **3.** By page two.\n")
     (root / "freefem/00_start.edp").write_text("// ### Solve\nreal a = 1;\n")
     (root / "lib/antilock/core/error.hpp").write_text("#pragma once\nclass Error {};\n")
     for folder, file, text in (("lib/antilock/adapt", "solve_to.hpp", "#pragma once\nint solve_to();\n"),
@@ -157,11 +170,12 @@ def small_repository(root):
                                                 "| words (of a page) | no such link | 00 |\n")
     for still in STILLS.values():
         Image.new("RGB", (4, 4)).save(root / f"figures/images/{still}.png")
-    for picture in ("ties", "first"):
+    for picture in ("ties", "first", "second"):
         Image.new("RGB", (4, 4)).save(root / f"figures/images/{picture}.png")
     shutil.copy(ROOT / "figures/table.py", root / "figures")
     (root / "figures/table.toml").write_text(
         entry("string", "00_start", CAPTION) + entry("first", "27_later", "The first.") +
+        entry("second", "07_middle", "The second.") +
         entry("ties", "27_later", "The ties.") + entry("hero", "27_later", "On top."))
     (root / "results/logs").mkdir(parents=True)
     (root / "results/logs/27_later.log").write_text("27_later: a run\n\n  two rows of it\na  1\nb  2\n\nVERDICT holds: all\n")
@@ -204,35 +218,56 @@ class Pages(unittest.TestCase):
 
     def test_the_index_has_every_chapter_once_in_the_order_of_the_parts(self):
         index = self.page("index")
-        self.assertEqual(re.findall(r"<(\d\d_\w+)>", index), ["00_start", "07_middle", "27_later"])
+        self.assertEqual(re.findall(r"<(\d\d_\w+)>", index),
+                         ["00_start", "07_middle", "07_more", "27_later"])
         self.assertEqual(re.findall(r":caption: (\w+)", index), ["Basics", "More", "For", "To"])
         self.assertRegex(index, r"(?s)## Basics: some 0 hours\n\nRead both\. It needs no other chapter\..*\[07 A second chapter\]\(07_middle\.md\) \| 5 \|"
                                 r".*## More\n\nRead it\. About 5 minutes\. It needs the course\. Nothing later needs it\.")
 
     def test_a_chapter_says_where_it_stands_and_how_long_it_takes(self):
-        self.assertIn("**Basics, chapter 1 of 2.** About 5 minutes.\n**Afterwards you can** begin,\nand end.\n\nNeeds: nothing", self.page("00_start"))
-        self.assertIn("**Basics, chapter 2 of 2.** About 5 minutes.\n**Afterwards you can** go on.", self.page("07_middle"))
+        self.assertIn("**Basics, chapter 1 of 3.** About 5 minutes.\n"
+                      "**Afterwards you can** begin,\nand end.\n\nNeeds: nothing",
+                      self.page("00_start"))
+        self.assertIn("**Basics, chapter 2 of 3.** About 5 minutes.\n"
+                      "**Afterwards you can** go on.", self.page("07_middle"))
         self.assertIn("**More.** About 5 minutes.", self.page("27_later"))
 
     def test_minutes_are_those_of_words_formulas_lines_and_runs(self):
-        with tempfile.TemporaryDirectory() as folder:
-            source = Path(folder) / "a.cpp"
-            def measured(text):
-                source.write_text(text)
-                return minutes(source)
-            self.assertEqual(measured("// # A\n//\n// " + "word " * 1000), 20)
-            self.assertEqual(measured("// " + "$x^2$ " * 100), 30)
-            self.assertEqual(measured("// $$ x = y $$\n//\n" * 10), 30)
-            self.assertEqual(measured("// # A\n" + "int a;\n\n" * 200), 20)
-            self.assertEqual(measured("// # A\n//\n" + "// Run: a --cells 4    words that take no time\n" * 10), 20)
-            self.assertEqual(measured("// # A\n"), 5)
+        def measured(text):
+            return minutes(text.splitlines())
+        self.assertEqual(measured("// # A\n//\n// " + "word " * 1000), 20)
+        self.assertEqual(measured("// " + "$x^2$ " * 100), 30)
+        self.assertEqual(measured("// $$ x = y $$\n//\n" * 10), 30)
+        self.assertEqual(measured("// # A\n" + "int a;\n\n" * 200), 20)
+        run = "// Run: a --cells 4    words that take no time\n"
+        self.assertEqual(measured("// # A\n//\n" + run * 10), 20)
+        self.assertEqual(measured("// # A\n"), 5)
 
     def test_a_chapter_leads_to_the_next_whatever_numbers_are_free(self):
-        stems = sorted(CHAPTERS)
-        for before, after in zip(stems, stems[1:]):
+        pages = ["00_start", "07_middle", "07_more", "27_later"]
+        for before, after in zip(pages, pages[1:]):
             self.assertIn(f'class=next-page href={after}.html', self.page(before, "html", "book"))
             self.assertIn(f'class=prev-page href={before}.html', self.page(after, "html", "book"))
+        stems = sorted(CHAPTERS)
+        for before, after in zip(stems, stems[1:]):
             self.assertRegex(self.page(before), rf"Leads to: \[{after[:2]} [^]]*\]\({after}\.md\)\.")
+
+    # ---- a second page
+
+    def test_a_second_page_has_its_own_pictures_and_answers_and_the_same_program(self):
+        first, second = self.page("07_middle"), self.page("07_more")
+        for words in ("# 07 Its second page", "**Basics, chapter 3 of 3.** About 5 minutes.",
+                      "**Afterwards you can** turn a page.", "images/second.webp",
+                      "**3.** By page two.", "void more()", "tutorials/07_middle/07_middle.cpp"):
+            self.assertIn(words, second)
+            if not words.startswith("tutorials"):
+                self.assertNotIn(words, first)
+        for words in ("**2.** By", "int main()", "--exercise"):
+            self.assertIn(words, first)
+            self.assertNotIn(words, second)
+        # its button runs the program of the chapter
+        self.assertIn('data-program="07_middle"', second)
+        self.assertEqual(re.findall(r'data-run="([^"]*)"', second), ["", ""])
 
     # ---- live figures
 
@@ -424,7 +459,7 @@ int behind;""".splitlines()
                 ("chapter 98 does not exist", chapter, "// As chapter 98 says."),
                 ("figures/images/none.png is missing", "figures/table.toml",
                  entry("none", "00_start", "A picture.")),
-                ("picture 5 (more): unknown chapter 28_more", "figures/table.toml",
+                ("picture 6 (more): unknown chapter 28_more", "figures/table.toml",
                  entry("more", "28_more", "Another.")),
                 ("00_start.cpp: :live: tree: tree is unknown; accepted: locking", chapter, "// :live: tree"),
                 ("mesh=round is no setting of locking; accepted: mesh=structured|", chapter, "// :live: mesh=round"),
@@ -432,6 +467,9 @@ int behind;""".splitlines()
                 ("a page holds one figure of a kind", chapter, "// :live: string"),
                 ("tutorials/00_start: `ε ≥ 0`: a formula stands between dollars", chapter, "// For `ε ≥ 0`."),
                 (":figure: tree: no picture of figures/table.toml", chapter, "// :figure: tree"),
+                ("00_start.cpp: :page: 07_other: accepted: a new name that begins with 00_",
+                 chapter, "// :page: 07_other"),
+                (":page: 00_start: accepted: a new name", chapter, "// :page: 00_start"),
                 ("lecture_1.md: :figure: tree: no picture", "tutorials/guides/lecture_1.md",
                  "\n:figure: tree"),
                 ("27_later.cpp: :figure: ties: it stands on the page already", "tutorials/27_later/27_later.cpp", "// :figure: ties"),

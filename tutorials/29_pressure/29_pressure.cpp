@@ -3,6 +3,9 @@
 // Run: 29_pressure              five mixed methods, λ from 1 to 1e20 and infinity, 1/h from 4 to 32; some seconds
 // Run: 29_pressure --exercise 1
 //
+// **Afterwards you can** say which pressures a mixed method determines, compute an inf-sup
+// constant, and say which of its variants contact asks for.
+//
 // Needs: [26](../26_elasticity/26_elasticity.cpp) for the block of rubber and Taylor–Hood,
 // [28](../28_mixed/28_mixed.cpp) for projected forms and Theorem 4 with its hypotheses (i)
 // to (iv).
@@ -11,13 +14,10 @@
 // same with a bubble: *the displacements differ little, and one of the pressures is noise.*
 //
 // **Predict.** (a) Contact holds unknowns of a mixed method that does not lock. Does it
-// lock then? (b) Without contact the incompressible block is loaded by a gradient,
-// $f = ∇ψ$, with $ψ = 0$ on its free sides. How does it move? And in MINI?
+// lock then? (b) One of the pressures of the picture is noise. By how many per cent is the
+// contact force of this method wrong at 1/h = 32?
 //
-// **Two parts.** The chapter has two parts, and each can be read alone. The first part asks
-// which pressures a method determines, with contact and without. It answers prediction (a).
-// The second part begins at *A second kind of locking*. It is about loads that are
-// gradients, and needs only the next section. It answers prediction (b).
+// A second page of this chapter is about loads that are gradients. Its program is this one.
 //
 // ## The pressure as an unknown
 //
@@ -37,7 +37,7 @@
 // on it. If some pressure is seen by no $v_h$, the equations do not determine it: that is
 // the noise of the picture. If it is seen, but only just, then it takes a large $v_h$ to
 // change the mean of $B v_h$ a little. The *inf-sup constant* measures this. It is the
-// largest β with
+// largest β with (the condition of Ladyzhenskaya, Babuška and Brezzi)
 //
 // $$ \max_{v_h} \frac{(q, B v_h)}{‖v_h‖} ≥ β ‖q‖ \text{ for all } q ∈ Q_h. $$
 //
@@ -65,30 +65,6 @@
 // share each vertical edge), and yet nothing locks: a positive inf-sup constant is
 // sufficient, and not necessary. [4] of the paper (Ben Belgacem, Renard and Slimane 2005)
 // and, with other elements, Lovadina and Molinari (2026) build contact on such constants.
-//
-// ## A second kind of locking: gradients
-//
-// Let rubber be incompressible, without an obstacle, under a load $f = ∇ψ$ with $ψ = 0$ on
-// its free sides. By parts $(f, v) = -(ψ, \operatorname{div} v)$: the load does no work on
-// any motion that keeps the volume. So the block does not move, and its pressure takes up
-// ψ. If λ is finite, it moves by the order of $1/λ$. But a discrete $v_h$ keeps the volume
-// in the mean only. The load does a little work on it, so $u_h$ moves by as much at every
-// large λ. Its ratio to the exact motion grows like λ. This is not the locking of Theorem
-// 4: the absolute error tends to 0 uniformly. A method without this growth
-// is *gradient-robust* (Linke 2014 for fluids; Fu, Lehrenfeld, Linke and Streckenbach 2021
-// for elasticity). CR needs only another load. In $(f, v_h)$ replace $v_h$ by a field that
-// keeps the volume exactly,
-//
-// $$ (Π v_h)(x) = \sum_e \frac{\int_e v_h·n}{2 |T|} (x - x_e)   \text{ on each triangle } T, $$
-//
-// where $x_e$ is the corner opposite the edge $e$ (Raviart and Thomas). $Π v_h$ has the
-// same flux through each edge as $v_h$ and a continuous normal component. So
-// $\operatorname{div} Π v_h = \operatorname{div} v_h$, it is 0 exactly, and so is
-// $(∇ψ, Π v_h)$. Which gradient is the worst? The load is a sum of waves. $u_h$ is linear in
-// its coefficients $c$, so $|u_h|^2$ is $c^T Q c$ with a symmetric matrix $Q$. Among all $c$
-// of length 1 it is largest for the eigenvector of the largest eigenvalue of $Q$. The
-// Lanczos iteration finds it by products with $Q$ alone, that is by solves
-// ([17](../17_families_of_loads/17_families_of_loads.cpp) does the same).
 
 #include <cmath>
 #include <numbers>
@@ -114,38 +90,11 @@ const std::vector<Mixed> mixed_methods{
 // `inf_sup_constants`: β over all $v_h$, over those that are 0 on the contact set, and over
 // those that are 0 on all of $Γ_C$.
 
-// ### Solve
-// The worst motion in the norm of $a_1$ at $1/λ = 0$, without contact; and under one wave
-// at other λ. The loads $∇ψ$ have the norm 1 and are orthogonal:
-// $ψ ∼ \sin kπx \sin (m - ½) πy$, $k, m ≤ 1/(2h)$; on the field Π for CR if asked.
-void move_by_gradients(const Mixed& way, bool on_fluxes, Table& worst, Table& by_lambda) {
-  const std::string name = way.name + (on_fluxes ? ", load on fluxes" : "");
-  for (const int n : {8, 12, 16, 24}) {
-    const Space space(tutorial::block(n), way.element);
-    const VariationalInequality pressed = tutorial::rubber(way, space, 0);
-    Sweep sweep(
-        equality_constrained(pressed, std::vector<bool>(pressed.bounds.unknowns.size())));
-    const Eigen::MatrixXd loads = tutorial::gradient_loads(space, n / 2, on_fluxes);
-    const auto answer = [&](const Eigen::VectorXd& f) {
-      sweep.set_load(loads * f);
-      return sweep.solve().u;
-    };
-    const auto work = [&](const Eigen::VectorXd& f) {
-      return Eigen::VectorXd(loads.transpose() * answer(f));
-    };
-    worst.add({name, 1.0 / n,
-               std::sqrt(std::abs(largest_eigenvalue(work, loads.cols(), 1e-4, 20)))});
-    for (const double epsilon : {1.0, 1e-2, 1e-4, 1e-6, 1e-8}) {
-      if (n != 16) continue;
-      sweep.set_compliance(epsilon);
-      const Eigen::VectorXd u = answer(Eigen::VectorXd::Unit(loads.cols(), 0));
-      by_lambda.add({name, 1 / epsilon, std::sqrt(u.dot(sweep.problem().a1 * u))});
-    }
-  }
-}
+// Two functions stand on the second page: the runs under gradients, and their verdict.
+void move_by_gradients(const Mixed& way, bool on_fluxes, Table& worst, Table& by_lambda);
+void judge_gradients(const Table& worst, const Table& by_lambda, tutorial::Report& report);
 
-void judge(const Table& beta, const Table& forces, const Table& worst,
-           const Table& by_lambda, tutorial::Report& report);
+void judge(const Table& beta, const Table& forces, tutorial::Report& report);
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
   Table beta({"name", "h", "held", "beta"}), forces(tutorial::force_columns),
@@ -162,11 +111,11 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   report.finish();
   // ### Output
   tutorial::show_pressure(options.out, beta, forces, worst, by_lambda);
-  judge(beta, forces, worst, by_lambda, report);
+  judge(beta, forces, report);
+  judge_gradients(worst, by_lambda, report);
 }
 
-void judge(const Table& beta, const Table& forces, const Table& worst,
-           const Table& by_lambda, tutorial::Report& report) {
+void judge(const Table& beta, const Table& forces, tutorial::Report& report) {
   const double cr = tutorial::layer_inf_sup({&crouzeix_raviart(), unstructured()}, 8),
                p1_columns = tutorial::layer_inf_sup({&p1(), structured()}, 8);
   report.claim(cr > 1 - 1e-9 && p1_columns == 0,
@@ -210,6 +159,126 @@ void judge(const Table& beta, const Table& forces, const Table& worst,
                forces.filter("name", "P1 (pressure per triangle)")
                    .filter("epsilon", 0)
                    .last("percent"));
+}
+
+// ## What came out
+//
+// :output: inf-sup constant, held: all of Gamma_C
+//
+// (a) No. Where β settles without contact it settles with it, on these four meshes: with
+// all of $Γ_C$ held it is 0.186 for MINI, 0.280 for Taylor–Hood and 0.58 for CR. (Exercise
+// 1 shows a block in which contact destroys it.) P1 with a pressure per triangle has
+// $β = 0$ there, and loses it like $h$ where nothing is held: it locks, and its force is
+// wrong by 177 %.
+// :number: 177 = line "too large at 1/h = 8, {} % at 1/32"
+// :number: 0.186 = table "inf-sup constant, held: all" 0.0625 name=MINI
+// :number: 0.280 = table "inf-sup constant, held: all" 0.0625 name=Taylor-Hood
+// :number: 0.58 = table "inf-sup constant, held: all" 0.0625 "name=CR with jumps"
+//
+// (b) By less than 1 %. P1 with a pressure per vertex has $β = 0$ even where nothing is
+// held. Its largest pressure is 3.7 where Taylor–Hood has 1.0, and yet its force is right to
+// 0.9 % at 1/h = 32: a force does not show the noise. The numbers of unknowns differ: P1 has
+// 2112, MINI and CR 6208, Taylor–Hood 8320.
+// :number: 3.7 = table incompressible pressure "name=P1 (pressure per vertex)"
+// :number: 1.0 = table incompressible pressure name=Taylor-Hood
+// :number: 0.9 = table "error of the contact force" 0 "name=P1 (pressure per vertex)"
+// :number: 8320 = table incompressible unknowns name=Taylor-Hood
+//
+// :figure: inf_sup
+//
+// ## Exercises
+//
+// 1. Hold the rubber's sides too. What becomes of β while the groove fills up, and of the
+//    solution at ε = 0 after that?
+
+// :page: 29_gradients
+// # Rubber that a gradient loads
+//
+// **Afterwards you can** say why a load that is a gradient moves a discrete block of rubber,
+// tell this from locking, and repair it in the load alone.
+//
+// Needs: [29](../29_pressure/29_pressure.cpp) for the pressure as an unknown and the five
+// methods, [26](../26_elasticity/26_elasticity.cpp) for the block of rubber.
+//
+// **The picture.** A block under one gradient, without contact: *the larger λ is, the less
+// the exact block moves, but three discrete blocks stop becoming stiffer.*
+//
+// :figure: gradients
+//
+// **Predict.** (a) Halve $h$. By which factor does the motion of MINI fall, if each mesh
+// has its own worst gradient? (b) CR can be made to move as the exact block does. How many
+// more unknowns does that take?
+//
+// ## A second kind of locking
+//
+// Let rubber be incompressible, without an obstacle, under a load $f = ∇ψ$ with $ψ = 0$ on
+// its free sides. By parts $(f, v) = -(ψ, \operatorname{div} v)$: the load does no work on
+// any motion that keeps the volume. So the block does not move, and its pressure takes up
+// ψ. If λ is finite, it moves by the order of $1/λ$ (exercise 3).
+//
+// But a discrete $v_h$ keeps the volume in the mean only, that is,
+// $(q_h, \operatorname{div} v_h) = 0$ for all discrete pressures $q_h$. So the load does the
+// work
+//
+// $$ (∇ψ, v_h) = -(ψ, \operatorname{div} v_h) = -(ψ - q_h, \operatorname{div} v_h) $$
+//
+// on it, with any $q_h$. (For CR the jumps of $v_h$ add a term of the same order, because
+// their means over edges are 0.) With the $q_h$ nearest to ψ this is at most
+// $C h ‖∇ψ‖ |v_h|$, and in general it is not 0. So $u_h$ moves by at most the order of $h$,
+// and it moves by as much at every large λ, because λ does not occur in this work. Its
+// ratio to the exact motion grows like λ. This is not the locking of Theorem 4: the
+// absolute error tends to 0 uniformly. A method without this growth is *gradient-robust*
+// (Linke 2014 for fluids; Fu, Lehrenfeld, Linke and Streckenbach 2021 for elasticity).
+//
+// ## Another load
+//
+// CR needs only another load. In $(f, v_h)$ replace $v_h$ by a field that keeps the volume
+// exactly,
+//
+// $$ (Π v_h)(x) = \sum_e \frac{\int_e v_h·n}{2 |T|} (x - x_e)   \text{ on each triangle } T, $$
+//
+// where $x_e$ is the corner opposite the edge $e$ (Raviart and Thomas). $Π v_h$ has the
+// same flux through each edge as $v_h$ and a continuous normal component. So
+// $\operatorname{div} Π v_h = \operatorname{div} v_h$, it is 0 exactly, and so is
+// $(∇ψ, Π v_h)$.
+//
+// Which gradient is the worst? The load is a sum of waves. $u_h$ is linear in
+// its coefficients $c$, so $|u_h|^2$ is $c^T Q c$ with a symmetric matrix $Q$. Among all $c$
+// of length 1 it is largest for the eigenvector of the largest eigenvalue of $Q$. The
+// Lanczos iteration finds it by products with $Q$ alone, that is by solves
+// ([17](../17_families_of_loads/17_families_of_loads.cpp) does the same).
+
+// ### Solve
+// The worst motion in the norm of $a_1$ at $1/λ = 0$, without contact; and under one wave
+// at other λ. The loads $∇ψ$ have the norm 1 and are orthogonal:
+// $ψ ∼ \sin kπx \sin (m - ½) πy$, $k, m ≤ 1/(2h)$; on the field Π for CR if asked.
+void move_by_gradients(const Mixed& way, bool on_fluxes, Table& worst, Table& by_lambda) {
+  const std::string name = way.name + (on_fluxes ? ", load on fluxes" : "");
+  for (const int n : {8, 12, 16, 24}) {
+    const Space space(tutorial::block(n), way.element);
+    const VariationalInequality pressed = tutorial::rubber(way, space, 0);
+    Sweep sweep(
+        equality_constrained(pressed, std::vector<bool>(pressed.bounds.unknowns.size())));
+    const Eigen::MatrixXd loads = tutorial::gradient_loads(space, n / 2, on_fluxes);
+    const auto answer = [&](const Eigen::VectorXd& f) {
+      sweep.set_load(loads * f);
+      return sweep.solve().u;
+    };
+    const auto work = [&](const Eigen::VectorXd& f) {
+      return Eigen::VectorXd(loads.transpose() * answer(f));
+    };
+    worst.add({name, 1.0 / n,
+               std::sqrt(std::abs(largest_eigenvalue(work, loads.cols(), 1e-4, 20)))});
+    for (const double epsilon : {1.0, 1e-2, 1e-4, 1e-6, 1e-8}) {
+      if (n != 16) continue;
+      sweep.set_compliance(epsilon);
+      const Eigen::VectorXd u = answer(Eigen::VectorXd::Unit(loads.cols(), 0));
+      by_lambda.add({name, 1 / epsilon, std::sqrt(u.dot(sweep.problem().a1 * u))});
+    }
+  }
+}
+
+void judge_gradients(const Table& worst, const Table& by_lambda, tutorial::Report& report) {
   const Table on_fluxes = worst.filter("name", "CR with jumps, load on fluxes");
   report.claim(on_fluxes.max("moved") < 1e-9,
                "(proved) gradient loads do not move CR with the load on fluxes: {:.0e}",
@@ -231,40 +300,30 @@ void judge(const Table& beta, const Table& forces, const Table& worst,
 
 // ## What came out
 //
-// :output: inf-sup constant, held: all of Gamma_C
+// :output: moved by the worst gradient
 //
-// (a) No. Where β settles without contact it settles with it, on these four meshes: with
-// all of $Γ_C$ held it is 0.186 for MINI, 0.280 for Taylor–Hood and 0.58 for CR. (Exercise
-// 1 shows a block in which contact destroys it.) P1 with a pressure per triangle has
-// $β = 0$ there, and loses it like $h$ where nothing is held: it locks. P1 with a pressure
-// per vertex has none. Its largest pressure is 3.7 where Taylor–Hood has 1.0, and yet its
-// force is right to 0.9 % at 1/h = 32: a force does not show the noise. The numbers of
-// unknowns differ: P1 has 2112, MINI and CR 6208, Taylor–Hood 8320.
-// :number: 0.186 = table "inf-sup constant, held: all" 0.0625 name=MINI
-// :number: 0.280 = table "inf-sup constant, held: all" 0.0625 name=Taylor-Hood
-// :number: 0.58 = table "inf-sup constant, held: all" 0.0625 "name=CR with jumps"
-// :number: 3.7 = table incompressible pressure "name=P1 (pressure per vertex)"
-// :number: 1.0 = table incompressible pressure name=Taylor-Hood
-// :number: 0.9 = table "error of the contact force" 0 "name=P1 (pressure per vertex)"
-// :number: 8320 = table incompressible unknowns name=Taylor-Hood
-//
-// :figure: inf_sup
+// (a) By 1.7 from 1/8 to 1/16: the motion of MINI falls from 0.0086 to 0.0052. The orders
+// in $h$ are 0.7 to 0.8 and still grow, and CR's are 0.94 to 0.98. The bound $C h$ allows no
+// order that stays below 1. CR, which has the largest β, moves most: a large β does not make
+// a method gradient-robust.
+// :number: 0.0086 = table "moved by the worst" 0.125 name=MINI
+// :number: 0.0052 = table "moved by the worst" 0.0625 name=MINI
+// :number: 0.7 = line "gradient loads move MINI: orders in h {}"
+// :number: 0.94 = line "gradient loads move CR with jumps: orders in h {}"
 //
 // :output: moved by one gradient
 //
-// (b) It does not move. MINI, Taylor–Hood and CR do, and they move by the same at λ = 1e6
-// and at 1e8. CR, which has the largest β, moves most: a large β does not make a method
-// gradient-robust. With its load on the fluxes CR moves like 1/λ, as the exact block does.
-// That is one loop of the assembly, and no unknown more.
-//
-// :figure: gradients
+// (b) None. MINI, Taylor–Hood and CR move by the same at λ = 1e6 and at 1e8. With its load
+// on the fluxes CR moves like $1/λ$, as the exact block does. That is one loop of the
+// assembly.
 //
 // ## Exercises
 //
-// 1. Hold the rubber's sides too. What becomes of β while the groove fills up, and of the
-//    solution at ε = 0 after that?
 // 2. On paper: $Π v_h$ and $v_h$ have the same fluxes through edges. Why does
-//    $\operatorname{div} Π v_h = \operatorname{div} v_h$ follow, and why is $(∇ψ, Π v_h) = 0$ although $Π v_h$ is not in $H^1$?
+//    $\operatorname{div} Π v_h = \operatorname{div} v_h$ follow, and why is
+//    $(∇ψ, Π v_h) = 0$ although $Π v_h$ is not in $H^1$?
+// 3. On paper: why does the exact block move by at most the order of $1/λ$? Take the
+//    inf-sup constant β of the exact problem for granted.
 
 #include "answers.hpp"
 

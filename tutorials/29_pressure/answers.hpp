@@ -59,3 +59,11 @@ const std::vector<tutorial::Exercise> exercises{
 // sides, so by parts on every triangle the terms on inner edges cancel. On the boundary
 // either $ψ = 0$ or $v_h$ has no flux. What is left is $-(ψ, \operatorname{div} v_h)$,
 // which is 0 for those $v_h$ that keep the volume of every triangle.
+//
+// **3.** Let $p = λ \operatorname{div} u$. Then
+// $a_1(u, v) + (p + ψ, \operatorname{div} v) = 0$ for all $v$. With $v = u$ this is
+// $a_1(u, u) + ‖p‖^2/λ = -(ψ, p)/λ$, so $‖p‖ ≤ ‖ψ‖$. Measure $v$ by
+// $‖v‖^2 = a_1(v, v)$. By the inf-sup constant some $v ≠ 0$ has
+// $β ‖p + ψ‖ ‖v‖ ≤ (p + ψ, \operatorname{div} v) = -a_1(u, v) ≤ ‖u‖ ‖v‖$, so
+// $‖p + ψ‖ ≤ ‖u‖/β$. Once more with $v = u$:
+// $‖u‖^2 = -(p + ψ, p)/λ ≤ ‖u‖ ‖ψ‖/(β λ)$. So $‖u‖ ≤ ‖ψ‖/(β λ)$.

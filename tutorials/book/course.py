@@ -11,7 +11,7 @@ import textwrap
 import tomllib
 from pathlib import Path
 
-from literate import BookError, chunks, needs, runs, without_marks
+from literate import BookError, chunks, needs, pages_of, runs, without_marks
 
 TUTORIALS = Path(__file__).resolve().parents[1]
 TABLE = "tutorials/book/course.toml"
@@ -27,10 +27,10 @@ MINUTES_PER_DISPLAY = 3  # a formula on a line of its own: the reader derives it
 MINUTES_PER_RUN = 2  # a line `Run:`, which is predicted and then compared
 
 
-def minutes(source):
-    """How long a reader takes for a chapter, rounded to 5 minutes. `source` is the path of its .cpp file."""
+def minutes(lines):
+    """How long a reader takes for the lines of a page, rounded to 5 minutes."""
     prose, code = [], 0
-    for kind, block in chunks(without_marks(source.read_text().splitlines())):
+    for kind, block in chunks(without_marks(lines)):
         if kind == "prose":
             prose += block
         else:
@@ -47,9 +47,9 @@ def minutes(source):
     return max(5, 5 * round(total / 5))
 
 
-def needed(source):
-    """The numbers of the chapters that the paragraph `Needs:` of a chapter names."""
-    prose = [line for kind, block in chunks(source.read_text().splitlines()) if kind == "prose" for line in block]
+def needed(lines):
+    """The numbers of the chapters that the paragraph `Needs:` of a page names."""
+    prose = [line for kind, block in chunks(lines) if kind == "prose" for line in block]
     return re.findall(r"\[(\d\d)\]\(", " ".join(needs(prose)[1]))
 
 
@@ -67,20 +67,27 @@ def fault(part):
 
 
 class Part:
-    """One part of the book: its chapters in their order, their minutes, and what it needs of other parts."""
+    """One part of the book: its chapters in their order, the pages of these, their minutes, and
+    what it needs of other parts. A chapter has one page, unless a line `:page:` begins a second
+    one."""
 
     def __init__(self, row):
         self.title, self.kind, self.about, self.chapters = row["title"], row["kind"], row["about"], row["chapters"]
 
     def measure(self, folder, others):
         """Reads the chapters. `others` are all parts of the book."""
-        self.minutes = {name: minutes(folder / name / f"{name}.cpp") for name in self.chapters}
+        pages = {part: {name: lines for chapter in part.chapters
+                        for name, lines in pages_of(folder / chapter / f"{chapter}.cpp").items()}
+                 for part in others}
+        self.pages = list(pages[self])
+        self.minutes = {name: minutes(lines) for name, lines in pages[self].items()}
         self.total = sum(self.minutes.values())
         known = {name[:2] for part in others if part is self or part.kind == "course" for name in part.chapters}
-        needs_of = {name: needed(folder / name / f"{name}.cpp") for part in others for name in part.chapters}
+        needs_of = {name: needed(lines) for part in others for name, lines in pages[part].items()}
         own = {name[:2] for name in self.chapters}
-        self.needs = sorted({number for name in self.chapters for number in needs_of[name]} - known)
-        self.needed_by = sorted(name[:2] for name in needs_of if name[:2] not in own and own & set(needs_of[name]))
+        self.needs = sorted({number for name in self.pages for number in needs_of[name]} - known)
+        others_of = {name[:2] for name in needs_of if own & set(needs_of[name])}
+        self.needed_by = sorted(others_of - own)
 
     def hours(self):
         """The hours of the part, in words."""
@@ -169,7 +176,7 @@ def main(arguments):
         case []:
             for part in parts:
                 print(f"{part.title}: {part.takes()}. {part.relation()}")
-                for name in part.chapters:
+                for name in part.pages:
                     print(f"  {name}  {part.minutes[name]}")
         case ["--write"]:
             readme.write_text(sorted_readme(text, parts))

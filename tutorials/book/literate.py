@@ -9,6 +9,7 @@
 - `:live: string` places a live figure, `:live: mesh=layered cells=32` the one of P1 and Crouzeix-Raviart with its settings.
 - `:figure: NAME ...` places pictures of figures/table.toml, `:output:` what the program printed: pages.py puts them in.
 - `:number: ...` is for tests/chapters/numbers, and is left out.
+- `:page: NAME` begins another page of the same program.
 """
 import html
 import re
@@ -42,6 +43,24 @@ def chunks(lines):
         block.append(body if new == "prose" else line.rstrip())
     if any(part.strip() for part in block):
         yield kind, block
+
+
+def pages_of(source):
+    """The pages of a chapter: {name: its lines}. The first one has the name of the file, and
+    `:page: NAME` begins the next."""
+    name = source.stem
+    found = {name: []}
+    for line in source.read_text().splitlines():
+        mark = re.match(r"// :page: (\w+)$", line)
+        if not mark:
+            found[name].append(line)
+            continue
+        name = mark[1]
+        if name in found or name[:3] != source.stem[:3]:
+            raise BookError(f"{source.name}: :page: {name}: accepted: a new name that begins "
+                            f"with {source.stem[:3]}")
+        found[name] = []
+    return found
 
 
 def without_marks(lines):
@@ -264,8 +283,21 @@ def needs(prose):
     return paragraph(prose, "Needs: ")
 
 
-def answers_on_paper(path):
-    """What stands under `## Answers on paper` in the answers of a chapter."""
+def answers_on_paper(path, page):
+    """The text under `## Answers on paper` in the answers of a chapter, as far as it answers an
+    exercise of this page. An answer begins with its number, as `**3.**`."""
+    exercises = "\n".join(page).partition("## Exercises")[2]
+    listed = re.findall(r"(?m)^(\d+)\. ", exercises)
+    out, kept = [], True
+    for line in all_answers(path):
+        number = re.match(r"\*\*(\d+)\.\*\*", line)
+        kept = number[1] in listed if number else kept
+        out += [line] if kept else []
+    return out
+
+
+def all_answers(path):
+    """The lines under `## Answers on paper` in the answers of a chapter."""
     for kind, block in chunks(path.read_text().splitlines()) if path.exists() else []:
         if kind == "prose" and "## Answers on paper" in block:
             return block[block.index("## Answers on paper") + 1:]
@@ -291,15 +323,15 @@ def signs(text):
 
 
 class Page:
-    """What a tutorial's source says, in the order of its page."""
+    """One page of a chapter, in the order of its lines. `source` is the chapter's file."""
 
-    def __init__(self, source, twin, draft):
+    def __init__(self, source, lines, twin, draft):
         self.title, self.lead, self.body, self.runs, self.objectives, self.needs = None, [], [], [], [], []
-        self.lives, self.steps = [], set()
+        self.source, self.lives, self.steps = source, [], set()
         self.twin = steps(twin)
         self.shown = set()
         step = None
-        for kind, block in chunks(without_marks(source.read_text().splitlines())):
+        for kind, block in chunks(without_marks(lines)):
             if kind == "code":
                 head = next((i for i, line in enumerate(block) if line.strip() and not line.startswith(("#include", "using "))),
                             len(block))
@@ -341,6 +373,12 @@ class Page:
     def needed(self):
         """The numbers of the chapters that it needs."""
         return re.findall(r"\[(\d\d)\]\(", " ".join(self.needs))
+
+    def placed(self):
+        """The names of the pictures that the lines of the page place."""
+        places = (PLACE.match(line) for line in self.body)
+        return {name for place in places if place and place[1] == "figure"
+                for name in place[2].split()}
 
     def show_twin(self, step):
         if step in self.twin and step not in self.shown:

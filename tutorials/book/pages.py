@@ -18,8 +18,9 @@ from PIL import Image
 
 import slides
 from course import read as read_course
-from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, fence, folded, live_figure, runs_in_the_page, signs,
-                      with_exercises, with_predictions, without_answer)
+from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, fence, folded,
+                      live_figure, pages_of, runs_in_the_page, signs, with_exercises,
+                      with_predictions, without_answer)
 from katex import TAG
 from library import Library
 from links import linked, term_anchor
@@ -39,7 +40,7 @@ class Book:
     def __init__(self, out, draft=False, without_runs=False):
         self.out, self.draft, self.without_runs = out, draft, without_runs
         self.sources = sorted(path for path in (ROOT / "tutorials").glob("[0-9][0-9]_*/[0-9][0-9]_*.cpp"))
-        self.names = [path.stem for path in self.sources]
+        self.names = [name for path in self.sources for name in pages_of(path)]
         self.parts = read_course(ROOT / "tutorials")
         self.table = read_table()
         self.library = Library(ROOT / "lib")
@@ -163,10 +164,19 @@ class Book:
         return re.sub(r"([\\`*_\[\]<>$^|#])", r"\\\1", text)
 
     def pictures_of(self, stem):
-        return [row for row in self.table if stem in row["chapters"]]
+        """The pictures of a page: those of its chapter without those that another page places.
+        A picture that no line places stands on the first page."""
+        source, pages = self.pages[stem].source, self.pages.items()
+        rows = [row for row in self.table if source.stem in row["chapters"]]
+        beside = [name for name, page in pages if page.source == source and name != stem]
+        elsewhere = {image for name in beside for image in self.pages[name].placed()}
+        here = self.pages[stem].placed() if stem != source.stem else None
+        return [row for row in rows if row["image"] not in elsewhere and
+                (here is None or row["image"] in here)]
 
     def placed(self, lines, stem):
         """The page with the pictures and the output that its lines place: (lines, names of these pictures, all of the output?)."""
+        program = self.pages[stem].source.stem
         out, names, whole, fenced = [], [], False, False
         for line in lines:
             fenced ^= line.startswith("```")
@@ -175,7 +185,7 @@ class Book:
                 out.append(line)
             elif place[1] == "output":
                 whole |= not place[2]
-                out += self.output(stem, place[2])
+                out += self.output(program, place[2])
             else:
                 rows = [self.shot(stem, name, names) for name in place[2].split()]
                 pictures = [line for row in rows if row for line in self.figure(row, eager=not names)]
@@ -193,32 +203,37 @@ class Book:
 
     def place(self, stem):
         """The part of a chapter and its minutes, as one line."""
-        part = next(part for part in self.parts if stem in part.chapters)
+        part = next(part for part in self.parts if stem in part.pages)
         if part.kind == "course" and not self.pages[stem].objectives:
             self.complain(f"{stem}.cpp: no paragraph \"**Afterwards you can** ...\"; each chapter of the course has one")
-        at = f"{part.title}, chapter {part.chapters.index(stem) + 1} of {len(part.chapters)}" if part.kind == "course" else part.title
+        at = part.title
+        if part.kind == "course":
+            at += f", chapter {part.pages.index(stem) + 1} of {len(part.pages)}"
         return f"**{at}.** About {part.minutes[stem]} minutes."
 
     def relations(self, stem):
         """The place of the chapter, its objectives and what it needs, in its own words, and where it leads to."""
         page = self.pages[stem]
         leads = [name for name in self.names if stem[:2] in self.pages[name].needed() and name != stem]
+        leads = leads if stem == page.source.stem else []  # a number is that of the first page
         def titled(found):
             return f"[{found[1]} {self.pages[found[3]].title}]({found[2]})" if found[3] in self.pages else found[0]
         out = [self.place(stem), *page.objectives, ""]
         out += [re.sub(r"\[(\d\d)\]\(((?:\.\./)?(\w+)/\3\.cpp)\)", titled, line) for line in page.needs]
         if leads:
             out.append("Leads to: " + ", ".join(f"[{name[:2]} {self.pages[name].title}](../{name}/{name}.cpp)" for name in leads) + ".")
-        return [":::{container} relations", *self.linked(out, ROOT / "tutorials" / stem), ":::", ""]
+        return [":::{container} relations", *self.linked(out, page.source.parent), ":::", ""]
 
-    def chapter(self, source):
+    def chapter(self, stem):
         """The first picture that no line places stands on top. Where a page places pictures, it places all others of its own."""
-        stem, page = source.stem, self.pages[source.stem]
+        page = self.pages[stem]
+        source = page.source
         lines = with_predictions(page.body, stem)
         body, names, output = self.placed(self.linked(lines, source.parent, terms=self.terms), stem)
         shots = [row for row in self.pictures_of(stem) if row["image"] not in names]
         if names:
-            shots = [row for row in shots if row["chapters"] == [stem]]  # one of two chapters may leave their picture to the other
+            # one of two chapters may leave their picture to the other
+            shots = [row for row in shots if row["chapters"] == [source.stem]]
         if names and len(shots) > 1:
             self.complain(f"{stem}.cpp: no line places the picture {shots[1]['image']}; accepted: :figure: {shots[1]['image']}")
         out = [f"# {stem[:2]} {page.title}", "", *self.relations(stem)]
@@ -227,13 +242,13 @@ class Book:
         if missing:
             self.complain(f"{stem}.cpp: {missing[0]} has no row in wasm/runs.csv; tutorials/book/wasm/measure build/bin writes it")
         if here and commands:
-            out += self.console(stem, commands[0])
+            out += self.console(source.stem, commands[0])
             body, commands = with_exercises(body, commands, self.takes)
         elif commands:
             out += ["This program asks for PETSc and several processes: it does not run in a page.", ""]
         out += self.figure(shots[0], eager=True) if shots else []
         out += body
-        answers = answers_on_paper(source.parent / "answers.hpp")
+        answers = answers_on_paper(source.parent / "answers.hpp", page.body)
         for number in without_answer(page.body, [command for command, _ in page.runs], answers):
             self.complain(f"{stem}.cpp: exercise {number} has no answer: no line `Run: {stem} --exercise {number}`, no **{number}.** in answers.hpp")
         if answers:
@@ -244,7 +259,7 @@ class Book:
             out.append("")
         for shot in shots[1:]:
             out += self.figure(shot)
-        printed = [] if output else self.output(stem)
+        printed = [] if output else self.output(source.stem)
         out += ["## What it prints", "", *printed] if printed else []
         out += ["## The sources", ""]
         twin = ROOT / f"freefem/{stem}.edp"
@@ -326,13 +341,15 @@ class Book:
 
     def contents(self, part):
         """A part in the table of contents: what it is for, its time, and a row for each chapter."""
-        rows = [f"| [{name[:2]} {self.pages[name].title}]({name}.md) | {part.minutes[name]} |" for name in part.chapters]
+        rows = [f"| [{name[:2]} {self.pages[name].title}]({name}.md) | {part.minutes[name]} |"
+                for name in part.pages]
         head = f"{part.title}: {part.takes()}" if part.kind == "course" else part.title
         time = "" if part.kind == "course" else f"{part.takes().capitalize()}. "
         relation = re.sub(r"\b\d\d\b(?! minutes)", lambda found: f"[{found[0]}]({self.first_of(found[0])}.md)", part.relation())
         return [f"## {head}", "", f"{part.about} {time}{relation}", "", "| chapter | minutes |", "|---|---|", *rows, "",
                 "```{toctree}", ":hidden:", f":caption: {part.title}", "",
-                *(f"{name[:2]} {self.pages[name].title} <{name}>" for name in part.chapters), "```", ""]
+                *(f"{name[:2]} {self.pages[name].title} <{name}>" for name in part.pages),
+                "```", ""]
 
     def index(self):
         text = "\n".join(self.linked((ROOT / "tutorials/book/index.md").read_text().splitlines(), ROOT / "tutorials/book"))
@@ -346,13 +363,17 @@ class Book:
     def make(self):
         self.out.mkdir(parents=True, exist_ok=True)
         for source in self.sources:
-            page = self.pages[source.stem] = Page(source, ROOT / f"freefem/{source.stem}.edp", self.draft)
-            for tag in TAG.findall("\n".join(page.body)):
-                self.equations.setdefault(tag, source.stem)
+            for name, lines in pages_of(source).items():
+                page = Page(source, lines, ROOT / f"freefem/{name}.edp", self.draft)
+                self.pages[name] = page
+                # a second page has the button of the first one
+                page.runs = page.runs or self.pages[source.stem].runs[:1]
+                for tag in TAG.findall("\n".join(page.body)):
+                    self.equations.setdefault(tag, name)
         for still in STILLS.values():
             self.picture(still)
-        for source in self.sources:
-            self.chapter(source)
+        for name in self.names:
+            self.chapter(name)
         for name in EXTRA + TEACHING:
             page = (ROOT / f"tutorials/guides/{name}.md").read_text()
             lines = page.splitlines()

@@ -57,7 +57,7 @@ def fail(what):
 
 def names():
     """The pages of the book in their order."""
-    chapters = [name for part in read_course() for name in part.chapters]
+    chapters = [name for part in read_course() for name in part.pages]
     # slides are printed alone
     guides = [name for name in TEACHING + EXTRA if name not in slides.NAMES]
     return ["index", *chapters, *guides]
