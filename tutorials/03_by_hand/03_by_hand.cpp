@@ -240,8 +240,9 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## The same loop in the library
 //
-// `active_set` runs these two loops on sparse matrices, with every kind of bound. Side by
-// side:
+// No chapter of the course needs this section. It is for those who want to read the
+// library: `active_set` runs these two loops on sparse matrices, with every kind of bound.
+// Side by side:
 //
 // | here | in `lib/antilock/solve` | what is added there |
 // |---|---|---|

@@ -39,17 +39,36 @@
 //
 // $$ u_k'' = a^2 u_k - f_k   (0 < y < 1),   ε^{-2} u_k'' = a^2 u_k   (-1 < y < 0). $$
 //
-// Both are solved by the hyperbolic sine and cosine. On $Σ$ two things pass from the layer
-// to the body: the displacement $w = u_k(0)$, and the layer stress $p = ε^{-2} ∂_y u$,
-// which must be the slope $∂_y u^+$ of the body. On top the body is clamped.
+// **What to keep of the derivation.** It ends in one formula, $s_k → T + a^2$, and most
+// chapters need no more. (11 and 17 also use the stiffness of the layer alone,
+// $z \tanh κ$, and 15 uses the pull $g$.) These are its letters, for one wave number
+// $a = kπ$:
 //
-// **The body.** Hold its lower side at $w$. Without a load it is
-// $u_k = w \sinh(a(1 - y))/\sinh a$, whose slope there is $-T w$. If instead the lower side
-// is held at 0, the load leaves a slope there, the pull $g$. To find it, multiply the
-// equation by the solution without a load for $w = 1$, and integrate by parts twice. Both
-// together:
+// | letter | meaning |
+// |---|---|
+// | $w$, $c$ | the displacement on $Σ$, and on $Γ_C$ |
+// | $p$, $λ$ | the layer stress, and the pressure on $Γ_C$ |
+// | $T$, $g$ | the stiffness of the body on $Σ$, and the pull of the load there |
+// | $κ$, $z$ | $ε a$ and $a/ε$, the two numbers of the layer |
+// | $s_k$, $q$ | stiffness and pull again, as $Γ_C$ feels them through the layer |
 //
-// $$ ∂_y u^+ = g - T w,   T = a \coth a,   g = ∫_0^1 f_k(y) \frac{\sinh(a(1 - y))}{\sinh a} dy. $$
+// Both equations are solved by the hyperbolic sine and cosine. On $Σ$ two things pass from
+// the layer to the body: the displacement $w = u_k(0)$, and the layer stress
+// $p = ε^{-2} ∂_y u$, which must be the slope $∂_y u^+$ of the body. On top the body is
+// clamped.
+//
+// **The body.** Hold its lower side at 1. Without a load it is
+// $ψ(y) = \sinh(a(1 - y))/\sinh a$, because $ψ'' = a^2 ψ$, $ψ(0) = 1$ and $ψ(1) = 0$. Its
+// slope at the lower side is $-T$ with $T = a \coth a$. Now let the lower side be at $w$,
+// and let the load act. Multiply the equation of $u_k$ by $ψ$, and integrate by parts
+// twice. Because $ψ'' = a^2 ψ$, only the ends are left:
+//
+// $$ -∫_0^1 f_k ψ dy = ∫_0^1 (u_k'' - a^2 u_k) ψ dy = -u_k'(0) + ψ'(0) u_k(0) =
+// -u_k'(0) - T w. $$
+//
+// So the slope of the body at $Σ$ is
+//
+// $$ ∂_y u^+ = g - T w,   T = a \coth a,   g = ∫_0^1 f_k ψ dy. $$
 //
 // **The layer.** Let $c$ be the displacement of the side that may touch, and $λ$ the
 // pressure there. The outward normal points down, so $p = -λ$ on this side. The solution
@@ -58,7 +77,11 @@
 // $$ u_k = c \cosh κη - (λ/z) \sinh κη,   p = z c \sinh κη - λ \cosh κη,   κ = ε a,   z = a/ε. $$
 //
 // **Together.** At the top of the layer, $η = 1$, put its $u_k$ for $w$ and its $p$ for
-// $∂_y u^+$ into the body's line, and solve for the pressure:
+// $∂_y u^+$ into the body's line $p = g - T w$:
+//
+// $$ z c \sinh κ - λ \cosh κ = g - T (c \cosh κ - (λ/z) \sinh κ). $$
+//
+// Solve for the pressure, and divide above and below by $\cosh κ$:
 //
 // $$ λ = s c - q,   s_k(ε) = z \frac{T + z \tanh κ}{z + T \tanh κ},   q = \frac{g}{\cosh κ + (T/z) \sinh κ}. $$
 //

@@ -21,9 +21,9 @@
 //
 // **Predict.** (a) P1 takes over the values of a ridge $w(x)$ at the corners of a triangle,
 // and gets a slope across the layer (chapter 06). Crouzeix-Raviart takes over the means
-// over the three edges. Which slope does it get? (b) The truth is not negative on all of
-// $Γ_C$. The solution of Crouzeix-Raviart is asked to be so at the midpoints of edges. Is
-// it so between them?
+// over the three edges. Does it get a slope that falls with $h$, or none at all? (b) The
+// truth is not negative on all of $Γ_C$. The solution of Crouzeix-Raviart is asked to be so
+// at the midpoints of edges. Is it so between them?
 //
 // ## The element, and the interpolation that makes it work
 //
@@ -221,10 +221,10 @@ void nonconforming(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :output: Lemma 2
 //
-// (a) None, on any triangle. (b) No: it is nonnegative at the midpoints on $Γ_C$, and may
-// be a little below 0 at the ends of an edge, where it jumps. So $K_h^{nc}$ is not in $K$.
-// This, and the jumps, are the price (chapter 14); the three times as many unknowns are the
-// other one (chapter 21).
+// (a) None at all, on any triangle. (b) No: it is nonnegative at the midpoints on $Γ_C$,
+// and may be a little below 0 at the ends of an edge, where it jumps. So $K_h^{nc}$ is not
+// in $K$. This, and the jumps, are the price (chapter 14); the three times as many unknowns
+// are the other one (chapter 21).
 //
 // ## Exercises
 //

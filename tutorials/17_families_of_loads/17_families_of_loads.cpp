@@ -22,9 +22,11 @@
 // ## The stronger definition
 //
 // The paper closes with a prospect: "we intend to generalize the result in [3] which have a
-// stronger definition of locking". [3] is by Babuška and Suri. In its spirit we ask for one
-// bound that serves a whole family of problems. Here the family is a *ball of loads*: all
-// $f$ whose norm $‖f‖ = (∫_{Ω^+} f^2)^{1/2}$ is at most 1. (A ball of solutions is the
+// stronger definition of locking". [3] is by Babuška and Suri. For each value of the
+// parameter they take a set of solutions, and the largest error over this set. This largest
+// error stands in their locking ratio, where chapter 13 has the error of one solution. So
+// one bound has to serve a whole family of problems. Here the family is a *ball of loads*:
+// all $f$ whose norm $‖f‖ = (∫_{Ω^+} f^2)^{1/2}$ is at most 1. (A ball of solutions is the
 // other choice. For an inequality the solutions form no ball, the loads do.) Let $u_f$ and
 // $u_{f,h}$ be the exact and the discrete solution under $f$. Errors are measured in the
 // energy seminorm of chapter 13, and the worst one is
@@ -51,6 +53,16 @@
 // $μ_m = (m - ½) π$. A body that is free on $Σ$ answers each wave with a multiple of it,
 // and the layer adds one number per $k$, its part $(a/ε) \tanh εa$ of chapter 04's
 // stiffness $s_k(ε)$ (`lib/antilock/exact/load_modes.hpp`): $S$ is known in closed form.
+//
+// So the whole method is one product. Let $c$ be the coefficients of a load, and let the
+// matrix $F$ hold the integrals of the waves against the basis functions of $V_h$, so that
+// $F c$ is the load vector. With the matrix $A$ of the discrete problem the coefficients of
+// $(S - S_h) f$ are
+//
+// $$ S c - F^T A^{-1} F c, $$
+//
+// a product with $F$, a solve and a product with $F^T$. `ErrorForm` computes it, and
+// `LoadModes` has the waves and $S$. The error under one load is $(c^T (S - S_h) c)^{1/2}$.
 //
 // The sums end at $k^2 + (m - ½)^2 ≤ W^2$, $W = 2/h$. What do the later waves add? The
 // layer only takes away: it holds the body back, so the work $(f, S f)$ of a load is at
@@ -108,8 +120,12 @@
 // stands there. The obstacle raises $J(u)$, since fewer displacements are allowed, and does
 // not change $u_h$, which is 0 on $Γ_C$ anyway. So the supremum is no larger than without
 // it. And it is no smaller than the loss under one load that lifts the whole layer,
-// $2 \sin πx \cos(πy/2)$ (proved, both). For the other methods the run climbs over loads of
-// four waves with this profile: a *lower bound*.
+// $2 \sin πx \cos(πy/2)$ (proved, both). For the other methods the error is no quadratic
+// form of the load, and the run *climbs*. A load has four coefficients here, those of
+// $\sin kπx$ with $k ≤ 4$ and this profile. Differences say in which direction of these
+// four numbers the error grows most. The run goes a step that way, doubles the next step if
+// the error grew, and halves it if not (projected gradient ascent, `ascend`). It ends at
+// the error under one load, so this is a *lower bound* of the supremum.
 
 #include "course/course.hpp"
 #include "support.hpp"

@@ -14,9 +14,10 @@
 // falls steeply, far to the left. *P1 on the unstructured mesh is a level line: it has
 // locked, and no time buys accuracy.*
 //
-// **Predict.** (a) Halve $h$: by what factor do the linear solves of the active set grow,
-// and the steps of Uzawa? (b) Uzawa's algebraic error $|u_k - u_h|$ falls by a constant
-// factor per step, for ever. Does the error of the solution, $|u_k - u|$?
+// **Predict.** (a) The active set starts from the contact set of the mesh that is twice as
+// coarse. Halve $h$: by what factor do its linear solves grow, and the steps of Uzawa? (b)
+// Uzawa's algebraic error $|u_k - u_h|$ falls by a constant factor per step, for ever. Does
+// the error of the solution, $|u_k - u|$?
 //
 // ## What is measured
 //

@@ -15,9 +15,9 @@
 // rigid across its thickness, and it moves by 0.035: it is held as by a stretched string.*
 //
 // **Predict.** (a) The layer of (25) is one term on $Σ$. How many triangles, unknowns and
-// linear solves does it cost more than the body alone? (b) Seven values of ε on one mesh:
-// how many factorisations, if all those whose square is below the penalty δ of chapter 18
-// share one?
+// linear solves does it cost more than the body alone? (b) The values ε = 1e-1, 1e-3, 1e-4,
+// 1e-6, 1e-8, 1e-12 and 0 on one mesh: how many factorisations, if all those whose square
+// is below the penalty $δ = 6·10^{-8}$ of chapter 18 share one?
 //
 // ## The parts of the inequality (23)
 //
@@ -32,9 +32,9 @@
 // - before the change of variable $y → y/ε$ the layer is $(0,1) × (-ε,0)$ and $1/ε$ times
 //   as stiff: (22).
 //
-// Each of these is a type (`scene/scene.hpp`), so that an effect that is not in a scene costs
-// nothing: there is no code to skip. Contact has a *gap*, the distance between undeformed
-// body and obstacle at $x$: $u ≥ -$gap.
+// Each of these is a type (`scene/scene.hpp`), so that an effect that is not in a scene
+// costs nothing: there is no code to skip. Contact has a *gap*, the distance between
+// undeformed body and obstacle at $x$: $u ≥ -$gap.
 
 #include "antilock/study/scene_sweep.hpp"
 #include "support.hpp"

@@ -124,11 +124,14 @@
 // here some $h^2 / 256$. With $10^{-9}$ the set changed four times at 114,944 unknowns,
 // and at 460,288 it did not settle (observed).
 //
-// The other way is MUMPS, a direct solver whose ranks share the factor (exercise 2); they
-// send each other its numbers by MPI. BDDC, a method that factors each strip by itself,
-// took 5 to 9 iterations up to 1/h = 256 and broke down at 1.8 million unknowns; it is not
-// offered. A *strip* is here the part of the mesh or of the layer between two vertical
-// lines, not the strip of chapter 19.
+// **Two other ways.** *MUMPS* is a direct solver. It eliminates unknowns as the serial
+// factor does, but the ranks share the blocks of the factor, and send each other its
+// numbers by MPI (exercise 2). So it needs no kernel, and it keeps the price of a factor.
+// *BDDC* (balancing domain decomposition by constraints) factors each strip by itself. Its
+// conjugate gradients work on the values along the seams alone, and a small problem ties
+// the strips together. It took 5 to 9 iterations up to 1/h = 256 and broke down at 1.8
+// million unknowns, so it is not offered. A *strip* is here the part of the mesh or of the
+// layer between two vertical lines, not the strip of chapter 19.
 //
 // **SNESVI**, PETSc's own solver, is an active set
 // ([00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp)) whose line search

@@ -92,12 +92,9 @@
 // uniform in $t$ with an obstacle: below it is *observed*.
 //
 // **What can be expected.** On equilateral triangles with edges $h$ the P1 interpolant of
-// Kirchhoff's plate misses $h^2 ‖Δw‖ / 14.6$ in $L^2$. (On a triangle its error is
-// $-½ \sum λ_i λ_j\, w''_{ij}$, with the second differences along the three edges. Its mean
-// square is $\frac{h^4}{720} (\frac{21}{8} (Δw)^2 + \frac{3}{4} |∇^2 w|^2)$, and
-// $∫ |∇^2 w|^2 = ∫ (Δw)^2$.) So $h^2$ is the most to expect, and this number is the unit of
-// a verdict. The truth is a closed form for every $t$
-// (`lib/antilock/exact/exact_plate.hpp`): contact on the disc $r ≤ c$. Its energy gives
+// Kirchhoff's plate misses $h^2 ‖Δw‖ / 14.6$ in $L^2$ (exercise 4). So $h^2$ is the most to
+// expect, and this number is the unit of a verdict. The truth is a closed form for every
+// $t$ (`lib/antilock/exact/exact_plate.hpp`): contact on the disc $r ≤ c$. Its energy gives
 // $‖Δw‖^2 = -q ∫ w - F$ with the contact force $F$. *Patch test:* a plate that its rim
 // bends to a constant curvature must have its exact rotation at the vertices.
 
@@ -276,6 +273,9 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
 //    contact?
 // 3. On paper: at $t = 0$ Durán–Liberman's edge functions follow from $w$ and $θ$ at the
 //    vertices. Why?
+// 4. On paper: let $w$ be quadratic on an equilateral triangle with edges $h$. What is the
+//    mean square of the error of its P1 interpolant? Derive the 14.6 of *What can be
+//    expected*.
 
 #include "answers.hpp"
 

@@ -62,3 +62,17 @@ const std::vector<tutorial::Exercise> exercises{
 // those of the other edges are 0 here. So its coefficient is the difference of two numbers
 // that are known at the vertices. Three unknowns per vertex are left, which is what the
 // kernel counts.
+//
+// **4.** The error is 0 at the corners, and its second derivatives are those of $w$. So it
+// is $-½ \sum_{i<j} λ_i λ_j d_{ij}$ with the barycentric coordinates $λ_i$ and the second
+// differences $d_{ij} = h^2 τ_{ij}·∇^2 w\, τ_{ij}$ along the three edges. On a triangle
+// the mean of $λ_i^2 λ_j^2$ is $1/90$, that of $λ_i^2 λ_j λ_k$ is $1/180$. Hence the mean
+// square of the error is
+//
+// $$ \frac{1}{720} (\sum d_{ij}^2 + (\sum d_{ij})^2). $$
+//
+// The three directions are 60° apart, so $\sum d_{ij} = \frac{3}{2} h^2 Δw$ and
+// $\sum d_{ij}^2 = h^4 (\frac{3}{8} (Δw)^2 + \frac{3}{4} |∇^2 w|^2)$. Together this is
+// $\frac{h^4}{720} (\frac{21}{8} (Δw)^2 + \frac{3}{4} |∇^2 w|^2)$. For a clamped plate
+// $∫ |∇^2 w|^2 = ∫ (Δw)^2$ by parts, so the square of the norm is
+// $h^4 ‖Δw‖^2 · 3.375/720$, and $(720/3.375)^{1/2} = 14.6$.
