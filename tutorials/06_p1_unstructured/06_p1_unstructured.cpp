@@ -59,11 +59,11 @@
 //
 // :figure: chord
 //
-// This is the formula $a b c / (4 |T|)$ of the radius of the circle through the corners,
-// with the extents of the three sides in $x$ in the place of their lengths. So $k_T$ is at
-// most that radius, hence at most a constant times $h$ where no angle is bad; and it is 0
-// if and only if two corners have the same $x$: *if and only if the triangle has a vertical
-// edge*.
+// The radius of the circle through the corners is the product of the three sides over
+// $4 |T|$. Here the extents of the sides in $x$ stand in the place of their lengths. So
+// $k_T$ is at most that radius, hence at most a constant times $h$ where no angle is bad;
+// and it is 0 if and only if two corners have the same $x$: *if and only if the triangle
+// has a vertical edge*.
 //
 // :figure: slope
 //
@@ -71,33 +71,35 @@
 // interpolant is then about $(k/ε)^2 ‖w''‖^2$. This is the energy of bending: P1 turns the
 // layer into a plate that the paper's layer is not. Who wins, the load or the plate? Let
 // the layer keep the share $s$ of its ridge, and let $u_D$ be the body with $Σ$ clamped,
-// which keeps nothing. Put $d = u^0 - u_D$, and $E = a_1(d, d)$ with the moderate form
-// $a_1$. Along $u_D + s d$ the energy without bending grows from that of $u_D$ by
+// which keeps nothing. Put $r = u^0 - u_D$, and $E = a_1(r, r)$ with the moderate form
+// $a_1$. Along $u_D + s r$ the energy without bending grows from that of $u_D$ by
 //
-// $$ ½ s^2 a_1(d, d) + s (a_1(u_D, d) - L(d)) = E (½ s^2 - s), $$
+// $$ ½ s^2 a_1(r, r) + s (a_1(u_D, r) - L(r)) = E (½ s^2 - s), $$
 //
-// because $u^0$ is in balance in the direction $d$: $a_1(u^0, d) = L(d)$. (The contact
-// pressure of $u^0$ does no work on $d$, which is 0 where the layer touches.) Subtract
-// $a_1(d, d)$ on both sides: $a_1(u_D, d) - L(d) = -E$. This is a parabola, least at $u^0$,
-// where $s = 1$. Bending adds $½ s^2 E x$, the energy of the slopes that interpolation gives
-// to $s d$. The number $x$, which is not the place, is
+// because $u^0$ is in balance in the direction $r$: $a_1(u^0, r) = L(r)$. (The contact
+// pressure of $u^0$ does no work on $r$, which is 0 where the layer touches.) Subtract
+// $a_1(r, r)$ on both sides: $a_1(u_D, r) - L(r) = -E$. This is a parabola, least at $u^0$,
+// where $s = 1$. Bending adds $½ s^2 E ρ$, the energy of the slopes that interpolation
+// gives to $s r$. The number $ρ$ is
 //
-// $$ x = \frac{‖∂_y I_h w‖^2}{ε^2 E} ≈ \frac{k^2 ‖w''‖^2}{ε^2 E},   E (½ (1 + x) s^2 - s) \text{ is least at }
-// s = \frac{1}{1 + x}. $$
+// $$ ρ = \frac{‖∂_y I_h w‖^2}{ε^2 E} ≈ \frac{k^2 ‖w''‖^2}{ε^2 E},   E (½ (1 + ρ) s^2 - s) \text{ is least at }
+// s = \frac{1}{1 + ρ}. $$
+//
+// It is the share that is lost over the share that is kept, $(1 - s)/s = ρ$.
 //
 // :figure: loaded_plate
 //
 // The discrete solution has the least energy of all functions, this trial function among
 // them. Without bending the least value, at $s = 1$, is $-E/2$: a layer that gives way sets
-// the energy $E/2$ free. With bending the least value is $-E/(2 (1 + x))$. So P1 sets free
-// at least the share $1/(1 + x)$ of it, up to what interpolation costs in the body and of
+// the energy $E/2$ free. With bending the least value is $-E/(2 (1 + ρ))$. So P1 sets free
+// at least the share $1/(1 + ρ)$ of it, up to what interpolation costs in the body and of
 // $∂_x$ in the layer: on regular meshes this tends to 0 with $h$. It is proved with
 // contact, too: $u_D$ and $u^0$ are in $K$, so what lies between them is. On $Γ_C$
-// $u_D = 0$ and $λ u^0 = 0$, so the contact pressure $λ$ of $u^0$ added no term above. Since
-// $k ≤ c h$,
+// $u_D = 0$ and $λ u^0 = 0$, so the contact pressure $λ$ of $u^0$ added no term above.
+// Since $k ≤ c h$,
 //
-// $$ \text{P1 loses at most, up to this, the share } \frac{x}{1 + x} \text{ of the energy } E/2,
-// x = (c h/ε)^2, \text{ on any regular mesh.} $$
+// $$ \text{P1 loses at most, up to this, the share } \frac{ρ}{1 + ρ} \text{ of the energy } E/2,
+// ρ = (c h/ε)^2, \text{ on any regular mesh.} $$
 //
 // So all is well once $h ≪ ε$, as the paper says. That as much *is* lost, and that the
 // height of the ridge follows the same law within a factor of about 2, is observed on nine
@@ -108,7 +110,7 @@
 // the body's, in which $u^0 - u_D$ is $\sin a x \sinh a (1 - y) / \sinh a$: it is
 // harmonic, and 0 at the top. So
 //
-// $$ x = \frac{a^4}{a \coth a + a^2} \frac{k^2}{ε^2} = (5.84 \, k/ε)^2. $$
+// $$ ρ = \frac{a^4}{a \coth a + a^2} \frac{k^2}{ε^2} = (5.84 \, k/ε)^2. $$
 //
 // Call $k$ the *bending length* of the mesh. The *wall* of a mesh is the ε at which half of
 // the ridge is lost. By the law it stands at $ε = 5.84 k$.
@@ -147,9 +149,9 @@ Table follow(const MeshFamily& family, int cells, const std::vector<double>& eps
     const Solution solution = active_set(assemble(scene, space));
     const double kept = solution.u(space.contact_dofs()).maxCoeff() /
                         tutorial::Exact(scene).solution.max_on_contact();
-    const double x = lost_to_kept(space.mesh(), epsilon);
-    table.add({family.name, bending_length(space.mesh()) * cells, epsilon, x, 1 / (1 + x),
-               kept, kept * (1 + x)});
+    const double rho = lost_to_kept(space.mesh(), epsilon);
+    table.add({family.name, bending_length(space.mesh()) * cells, epsilon, rho,
+               1 / (1 + rho), kept, kept * (1 + rho)});
     if (!film.empty())
       write_vtu(film / fmt::format("film_{:g}.vtu", epsilon), space, solution.u);
   }
@@ -287,7 +289,8 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 // 2. Keep the body's triangles, and put the layer into columns (the layered mesh of chapter
 //    02). Does it lock?
 // 3. All triangles of the staggered mesh are alike, and a good mesh is what one would call
-//    it. At $ε = h/2$ and $1/h = 64$: which of the staggered, the Delaunay and this chapter's mesh keeps most of the ridge, and which least?
+//    it. At $ε = h/2$ and $1/h = 64$: which of the staggered, the Delaunay and this
+//    chapter's mesh keeps most of the ridge, and which least?
 // 4. `--epsilon 1e-2`: the method "locks already" there (caption of Figure 9). Predict by
 //    the law what is kept at `--cells 16` and at `--cells 64`, and check.
 // 5. On paper: for which loads is nothing lost on this mesh?

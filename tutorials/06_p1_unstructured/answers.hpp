@@ -61,7 +61,7 @@ const std::vector<tutorial::Exercise> exercises{
 // ## Answers on paper
 //
 // **4.** The run prints $k/h$ of the mesh with $h = 1/32$; on 1/16 it is 0.071, on 1/64 it
-// is 0.033. The law says $x = (5.84 k/ε)^2 = 6.8$ and $0.092$: 0.13 and 0.92 should be
+// is 0.033. The law says $ρ = (5.84 k/ε)^2 = 6.8$ and $0.092$: 0.13 and 0.92 should be
 // kept. The runs keep 0.21 and 0.94.
 //
 // **5.** Those whose $u^0$ is 0 on the layer: then nothing is there to lose. One such load

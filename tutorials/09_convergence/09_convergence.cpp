@@ -28,7 +28,7 @@
 //
 // **Uniform** means: one bound for all $ε$, so that the *worst* error over $ε$ tends to 0
 // with $h$. A method can converge for each $ε$ and yet not uniformly. P1 unstructured does:
-// by the law of chapter 06 the share $x/(1 + x)$ of the ridge is lost, $x = (5.84 k/ε)^2$,
+// by the law of chapter 06 the share $ρ/(1 + ρ)$ of the ridge is lost, $ρ = (5.84 k/ε)^2$,
 // and the bending length $k$ of the mesh falls with $h$. For each $ε > 0$ the loss tends to
 // 0; but at every $h$ there is an $ε$ at which nearly all is lost.
 //

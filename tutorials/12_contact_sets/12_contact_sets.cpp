@@ -66,17 +66,17 @@
 // $$ ∫ ∇v_h·q + ∫ v_h \operatorname{div} q = ∫_{Γ_C} v_h g + ∑_E ∫_E [v_h] q·n. $$
 //
 // The sum is over the inner edges. A jump $[v_h]$ of CR has the mean 0 along its edge, so
-// only the change of $q$ along the edge counts, and the sum is at most $C h ‖v_h‖_h$. In
-// the limit the left side is that of $v$, whose gradient is the weak limit of the broken
-// ones (the same formula with a $q$ that is 0 on the whole boundary says so; chapter 14).
-// So $∫_{Γ_C} v_h g → ∫_{Γ_C} v g$. For $g ≥ 0$ this is not negative, because what lies
-// below 0 vanishes. So $v ≥ 0$ on $Γ_C$: $v$ is in $K$. The $c_h$ of the run comes from an
-// eigenvalue: the largest ratio of the two sides, with the distance to the mean on the
-// left. (For P2 it is the distance to the two chords that join its three points on an
-// edge.) The ratio is taken over all of $V_h$, so it is an upper bound. The function of the
-// picture shows that functions of $K_h$ come near this bound: it is the worst of those that
-// are 0 at all midpoints. Half of it lies below 0, so the left side is $2^{-1/2}$ times the
-// distance to the mean.
+// only the change of $q$ along the edge counts, and the sum is at most a constant times
+// $h ‖v_h‖_h$. In the limit the left side is that of $v$, whose gradient is the weak limit
+// of the broken ones (the same formula with a $q$ that is 0 on the whole boundary says so;
+// chapter 14). So $∫_{Γ_C} v_h g → ∫_{Γ_C} v g$. For $g ≥ 0$ this is not negative, because
+// what lies below 0 vanishes. So $v ≥ 0$ on $Γ_C$: $v$ is in $K$. The $c_h$ of the run
+// comes from an eigenvalue: the largest ratio of the two sides, with the distance to the
+// mean on the left. (For P2 it is the distance to the two chords that join its three points
+// on an edge.) The ratio is taken over all of $V_h$, so it is an upper bound. The function
+// of the picture shows that functions of $K_h$ come near this bound: it is the worst of
+// those that are 0 at all midpoints. Half of it lies below 0, so the left side is
+// $2^{-1/2}$ times the distance to the mean.
 //
 // **(9) for $K_0$: a slope that hides in jumps.** Let functions $v_h$ of $K_{0h}$ tend
 // weakly to $v$. On each triangle of the layer $∂_y v_h = 0$. Is $∂_y v = 0$, too? Without

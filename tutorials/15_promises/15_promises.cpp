@@ -62,7 +62,7 @@
 // the three sides in $x$, over four times the area. There it is proved that the loss is at
 // most what $k/ε$ allows. On the families below it is about that (observed):
 //
-// $$ \frac{\text{lost}}{\text{kept}} = x ≈ (5.84 \, k/ε)^2   \text{for the ridge } \sin 2πx. $$
+// $$ \frac{\text{lost}}{\text{kept}} = ρ ≈ (5.84 \, k/ε)^2   \text{for the ridge } \sin 2πx. $$
 //
 // By this law half is lost at $ε = 5.84 k$, and the wall stands there: to the right of it
 // refining helps, to the left of it P1 has locked. On a family of regular meshes $k ≤ c h$,
@@ -79,8 +79,8 @@
 //
 // *Let the layer consist of rows of congruent isosceles triangles of base $h$ and height
 // $H$, as those of the staggered mesh are, on a body whose triangles are regular. Without
-// contact, let $h → 0$ and $ε → 0$ with $x$ fixed. Then the share $1/(1 + x)$ of the
-// ridge is kept, $x = a^4 k^2/(ε^2 (a \coth a + a^2))$ with $a = 2π$ and $k = h^2/(8 H)$.*
+// contact, let $h → 0$ and $ε → 0$ with $ρ$ fixed. Then the share $1/(1 + ρ)$ of the
+// ridge is kept, $ρ = a^4 k^2/(ε^2 (a \coth a + a^2))$ with $a = 2π$ and $k = h^2/(8 H)$.*
 //
 // *At most that share is kept.* Let a P1 function have the values $c_j \sin ax$ at the
 // vertices of the $j$-th line. At the middle of a base the chord of the sine is
@@ -109,7 +109,7 @@
 // \frac{1}{4} (a \coth a + a^2 + ε^{-2} a^4 k^2) w^2, $$
 //
 // with the pull $g$ of chapter 04 and $u_D$ the body with $Σ$ clamped. The right side is
-// least at $1/(1 + x)$ times $g/(a \coth a + a^2)$, the height of the limit's ridge. *And
+// least at $1/(1 + ρ)$ times $g/(a \coth a + a^2)$, the height of the limit's ridge. *And
 // as much is kept.* The trial function of chapter 06 reaches this least value up to what
 // tends to 0. $u_h$ has no more energy than it has. The right side is a parabola in $w$, so
 // the height of $u_h$ tends to that of its lowest point. ∎
@@ -299,7 +299,8 @@ void judge(const Table& lost, const Table& walls, const Table& flat,
 // 1. Rows of triangles of base $h$, but half as high and twice as high as those of the
 //    staggered mesh. Where is the wall, in multiples of $h$?
 // 2. On paper: for which $ε(h)$ is the right side of (28) of no use, because it does not
-//    fall with $h$? For which $ε(h)$ does it have the order of the true error of P1 on the structured mesh?
+//    fall with $h$? For which $ε(h)$ does it have the order of the true error of P1 on the
+//    structured mesh?
 // 3. On paper: the ridge is $\sin πx$ in place of $\sin 2πx$. Does the wall move to smaller
 //    or to larger ε?
 

@@ -49,12 +49,12 @@
 // [chapter 06](../06_p1_unstructured/06_p1_unstructured.cpp) does not ask for the degree:
 // with $E$ the energy of the ridge without this slope, the share
 //
-// $$ \frac{1}{1 + x},   x = \frac{κ^2}{ε^2 E},   κ = ‖∂_y I_h w‖, $$
+// $$ \frac{1}{1 + ρ},   ρ = \frac{κ^2}{ε^2 E},   κ = ‖∂_y I_h w‖, $$
 //
-// of the ridge is kept, and P1's $x = (5.84 k/ε)^2$ is the case $κ = k ‖w''‖$. On a
+// of the ridge is kept, and P1's $ρ = (5.84 k/ε)^2$ is the case $κ = k ‖w''‖$. On a
 // Delaunay mesh $κ ∼ h^p$. On the mesh of Frontal-Delaunay most triangles of the layer have
 // a vertical edge, and the others are left along the boundary: there $κ ∼ h^{p + 1/2}$. A
-// higher degree moves the wall, the ε at which $x = 1$, to smaller ε. It does not remove
+// higher degree moves the wall, the ε at which $ρ = 1$, to smaller ε. It does not remove
 // it.
 //
 // Contact is asked at the unknowns on $Γ_C$. For $p ≥ 2$ a polynomial may dip below 0
@@ -73,7 +73,8 @@ using std::numbers::pi, tutorial::Exact;
 
 // `columns`: $c$. `kernel`: $\dim G_h$ on the layer, counted on the coarsest mesh (a rank
 // has no meaning where $B$ nearly misses many functions). `cost`: $κ$ for $w = \sin 2πx$.
-// `kept`: the largest $u_h$ on $Γ_C$ over that of $u$; `law`: $1/(1 + x)$.
+// `kept`: the largest $u_h$ on $Γ_C$ over that of $u$; `law`: $1/(1 + ρ)$, where
+// the verdicts write x for ρ.
 const std::vector<std::string> names{"element", "degree",   "mesh",    "cells",
                                      "h",       "unknowns", "columns", "kernel",
                                      "cost",    "h1",       "kept",    "law"};
@@ -202,7 +203,7 @@ void judge(const Table& results, tutorial::Report& report) {
 //
 // **One vertical line is enough.** gmsh's Delaunay mesh at 1/h = 4 has, by chance, a
 // vertical line at $x = 1/2$. It has two columns, so $\dim G_h$ is 1, 3, 5, 7. P2 keeps
-// 0.943 of the ridge there, where $1/(1 + x)$ is 1.14e-05. P1 gains nothing, because its
+// 0.943 of the ridge there, where $1/(1 + ρ)$ is 1.14e-05. P1 gains nothing, because its
 // one function, the hat at $x = 1/2$, is even about $x = 1/2$ and the load is odd. This
 // mesh says nothing about the others of its family, so the picture begins at 1/8 there.
 // :number: 0.943 = table "1/h = 4" kept element=P2 mesh=delaunay

@@ -55,7 +55,7 @@
 //
 // $$ u_N = ∑_i \frac{(f, ψ_i)}{1 + (ε^{-2} - 1) s_i^2} ψ_i. $$
 //
-// This is chapter 16's share $1/(1 + x)$, mode by mode: a mode is lost where ε is below its
+// This is chapter 16's share $1/(1 + ρ)$, mode by mode: a mode is lost where ε is below its
 // $s_i$. More features have sums with smaller slopes $s_i$, so that locking begins at a
 // smaller ε. It still begins, because no $s_i$ is 0.
 //
