@@ -183,9 +183,12 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
 // :figure: ties
 //
 // Each group has a colour. (a) One: no edge inside the staggered layer is vertical. This
-// mesh is as regular as the others, and P1 locks on it: regularity is not what decides. (b)
-// One per column. The body's triangles do not matter. The unstructured mesh has vertical
-// edges inside its layer, and yet one colour: no line of them goes all the way.
+// mesh has no angle below 26.57°, so it is regular, and P1 locks on it: regularity is not
+// what decides. (b) One per column. The body's triangles do not matter. Of the inner edges
+// of the unstructured layer a share of 0.075 is vertical, and yet it has one colour: no
+// line of them goes all the way.
+// :number: 26.57 = table "four meshes" "smallest angle" mesh=staggered
+// :number: 0.075 = table "four meshes" "vertical edges" mesh=unstructured
 //
 // ## Exercises
 //
@@ -194,7 +197,8 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
 // 2. Turn the diagonals of the structured mesh (left), or draw both (crossed). How many
 //    groups?
 // 3. On paper: let body and layer be free at both sides, so that only the top is clamped.
-//    Which functions of $G_h$ are left on the layer of the unstructured mesh? And if the layer alone is free at its sides?
+//    Which functions of $G_h$ are left on the layer of the unstructured mesh? And if the
+//    layer alone is free at its sides?
 // 4. On paper: quadratic functions with $∂_y v = 0$ on one group. How many are 0 at both
 //    ends?
 //

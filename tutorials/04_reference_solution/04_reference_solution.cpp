@@ -227,13 +227,23 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
 // :output: the symbol
 //
 // (a) Twice: at $ε = 1$ a wave goes into the depth about as far as it is long, so a wave of
-// half the length has slopes twice as large over half the depth, and $2^2/2 = 2$. (b)
-// Between three and four times: $s_k ≈ a + a^2$. The body's $a$ doubles, the string's $a^2$
-// becomes four times as large, and it is the larger part. At $ε = 0.1$ long waves see a
-// string, short ones an elastic block. Figure 4's solution, P1 on $1/h = 256$, is some
-// $5·10^{-6}$ off the truth at the unknowns. So from now on every error is measured against
-// the sine series and not against Figure 4. In the truth the contact zone begins at
-// $x = 0.702$.
+// half the length has slopes twice as large over half the depth, and $2^2/2 = 2$. The
+// table has 3.142 and 6.283.
+// :number: 3.142 = table "the symbol" s_k epsilon=1 k=1
+// :number: 6.283 = table "the symbol" s_k epsilon=1 k=2
+//
+// (b) Between three and four times: $s_k ≈ a + a^2$. The body's $a$ doubles, the string's
+// $a^2$ becomes four times as large, and it is the larger part. At $ε = 0.1$ long waves see
+// a string, short ones an elastic block: $s_1$ is 12.33, near the 13.02 of the rigid layer,
+// and $s_8$ is 248.6, near $a/ε = 251$.
+// :number: 12.33 = table "the symbol" s_k epsilon=0.1 k=1
+// :number: 13.02 = table "the symbol" s_k epsilon=1e-06 k=1
+// :number: 248.6 = table "the symbol" s_k epsilon=0.1 k=8
+//
+// Figure 4's solution, P1 on $1/h = 256$, is some $5·10^{-6}$ off the truth at the
+// unknowns. So from now on every error is measured against the sine series and not against
+// Figure 4. In the truth the contact zone begins at $x = 0.702$.
+// :number: 5 = 1e6 * line "reference solution {}"
 // :output: error against the truth
 //
 // **Why P1 is off by $(ah)^2/6$.** On the structured mesh the row of an inner vertex is

@@ -216,8 +216,11 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
 // ## What came out
 // :output: error at the unknowns
 //
-// (a) By a factor 1.6 between $ε = 1$ and $10^{-1}$, and by less than 1 % below: one mesh
-// serves all.
+// (a) By a factor 1.6: the error is 5.1e-4 at $ε = 1$ and 3.1e-4 at $10^{-1}$. Below
+// $10^{-2}$ all errors agree to 0.13 %: one mesh serves all.
+// :number: 5.1e-4 = table "error at the unknowns" error epsilon=1
+// :number: 3.1e-4 = table "error at the unknowns" error epsilon=0.1
+// :number: 0.13 = 100 * line "spread of the errors below 1e-2 (observed): {}"
 // :figure: contact_by_epsilon
 //
 // (b) By the stress $p = ε^{-2} ∂_y u$, which is *not* small: a tiny slope times a huge

@@ -86,6 +86,7 @@
 // the part with contact is short, the mean pressure is small. The two factors cancel, and
 // $T_C ≤ 0.56 h^2 ‖f‖^2$ wherever contact ends (*Lemma B*, with the mechanism of Drouet and
 // Hild).
+// :number: 0.56 = line "(h |f|)^2 on four meshes (proved on every mesh: {})"
 //
 // **Step 5: flux.** The layer has no load, so $σ_h$ is constant on a triangle. If one edge
 // is vertical, its $x$-component is the mean of $∂_x u$ over this edge. By Theorem A that
@@ -95,6 +96,8 @@
 // *Theorem C:* on shape-regular meshes (no angle tends to 0), if each layer triangle has a
 // vertical edge, $|u - u_h|_a ≤ C h ‖f‖$ for CR and P1; on the structured mesh $C = 1.7$
 // and $1.3$.
+// :number: 1.7 = line "proved on the structured mesh: {}, 1.3"
+// :number: 1.3 = line "proved on the structured mesh: 1.7, {},"
 //
 // ## Rows: one number in two roles
 //
@@ -267,6 +270,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // most 3/4 on rows at ε = 0. Open: order 1 on meshes of gmsh. One number, $k$, sets P1's
 // wall and takes a quarter of an order from CR. This is derived for rows, and a conjecture
 // elsewhere.
+// :number: 0.8 = line "S^- on rows (observed): order {}"
 //
 // ## Exercises
 //

@@ -168,14 +168,21 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :figure: asked_bump
 //
-// (a) 10 times fewer for the concentrated load (observed). For the smooth one 2, and those
+// (a) 9.6 times fewer for the concentrated load where everything is bisected, and 10.7
+// times where the layer is extruded (observed). For the smooth load 1.9, and this comes
 // from the columns alone: where the error is spread evenly, there is nothing to follow.
+// :number: 9.6 = line "bump, bisected: times fewer unknowns (observed) {}"
+// :number: 10.7 = line "bump, extruded: times fewer unknowns (observed) {}"
+// :number: 1.9 = line "smooth: times fewer, extruded (observed) {}"
 // :live: accuracy
 //
 // :figure: asked_smooth
 //
 // (b) No. The new triangles go into the layer, where most of the bound lies, and the bound
-// hardly falls: adaptivity does not cure locking, it finds it. The cure is the columns.
+// hardly falls: with 6060 unknowns it is 0.149, and 70 % of it lie in the layer. Adaptivity
+// does not cure locking, it finds it. The cure is the columns.
+// :number: 0.149 = table "P1, refined where" bound unknowns=6060
+// :number: 70 = 100 * table "P1, refined where" layer_share unknowns=6060
 //
 // :figure: finds_locking
 //

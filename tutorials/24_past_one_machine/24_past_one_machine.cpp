@@ -292,6 +292,8 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 // well as at 1/h = 256 (observed).
 // :number: 15 = table "iterations to 1e-8 as 1/h grows" iterations pair=strips cells=32
 // :number: 32 = table "iterations to 1e-8 as 1/h grows" iterations pair=strips cells=256
+// :number: 14 = table "iterations to 1e-8 as 1/h grows" iterations "pair=strips and hats" cells=32
+// :number: 17 = table "iterations to 1e-8 as 1/h grows" iterations "pair=strips and hats" cells=256
 //
 // On one core this gains nothing over the serial factor in the plane. What it gains is
 // ranks: no rank holds more than its strips, and the largest problem that is factored is
