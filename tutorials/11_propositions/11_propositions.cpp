@@ -205,8 +205,8 @@ void judge_path(const std::string& name, const Table& own, double lost,
   report.claim_within(term("left side").last("value") / term("second term").last("value"),
                       0.95, 1.05,
                       name + ": the error over its second term tends to 1 (observed):");
-  // it keeps the share 1 / (1 + rho) of the ridge, and at epsilon = h^2 rho is 1 / h on these
-  // meshes (chapter 06)
+  // it keeps the share 1 / (1 + rho) of the ridge, and at epsilon = h^2 rho is 1 / h on
+  // these meshes (chapter 06)
   report.claim_order(term("third term"), "value", "h", 0.7, 2.1,
                      name + ": and yet the third term tends to 0 (observed)");
 }

@@ -36,6 +36,26 @@
 // Each of these is a type (`scene/scene.hpp`), so that an effect that is not in a scene
 // costs nothing: there is no code to skip. Contact has a *gap*, the distance between
 // undeformed body and obstacle at $x$: $u ≥ -$gap.
+//
+// ## When is the limit good enough?
+//
+// (24) and (25) have the solution $u^0$ in place of $u^ε$. How far is it? Write both
+// problems with their layer stresses and contact pressures, subtract, and test with
+// $d = u^0 - u^ε$. The work of the pressures on $d$ is
+// $∫ (λ^0 - λ^ε) d = -∫ λ^0 u^ε - ∫ λ^ε u^0$, because $λ u = 0$ for each. It is not
+// positive, so
+//
+// $$ a_1(d, d) + (p^0 - p^ε, ∂_y d) ≤ 0. $$
+//
+// In the layer $∂_y u^0 = 0$, hence $∂_y d = -ε^2 p^ε$, and the energy of $d$ is
+// $|d|_{a^ε}^2 = a_1(d, d) - (p^ε, ∂_y d)$. By the last line this is at most
+// $-(p^0, ∂_y d) ≤ ‖p^0‖ ‖∂_y d‖$, and $‖∂_y d‖ ≤ ε |d|_{a^ε}$. Therefore (proved)
+//
+// $$ |u^0 - u^ε|_{a^ε} ≤ ε ‖p^0‖. $$
+//
+// The right side is known as soon as the limit is solved. For our load $‖p^0‖$ is 0.79. By
+// [chapter 10](../10_limits/10_limits.cpp) the quotient of both squares tends to 1 as ε
+// falls (observed), so the bound cannot be improved by a factor.
 
 #include "antilock/study/scene_sweep.hpp"
 #include "support.hpp"
