@@ -224,7 +224,8 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
 // :figure: ventcel_signorini
 //
 // (25) is the limit and not the layer: at $ε = 0.1$ (22) and (23) are 1e-4 apart, each on
-// its mesh, and (25) is 4.5e-3 from both. Chapter 23 asks when this is good enough.
+// its mesh, and (25) is 4.5e-3 from both. Chapter 23 bounds this error by $ε ‖p^0‖$ in the
+// norm of the energy.
 // :number: 1e-4 = line "(22) and (23) at epsilon = 0.1: {} apart"
 // :live: models
 //

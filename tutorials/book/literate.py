@@ -244,10 +244,10 @@ def with_predictions(lines, stem):
     if start is None:
         return lines
     end = paragraph_end(lines, start)
-    marks = re.findall(r"(?<!\S)\(([a-d])\)", " ".join(lines[start:end]))
+    marks = re.findall(r"(?<!\S)\(([a-e])\)", " ".join(lines[start:end]))
     questions = []
     for letter in marks:  # a letter out of this order is none of the questions
-        if letter == "abcd"[len(questions):][:1]:
+        if letter == "abcde"[len(questions):][:1]:
             questions.append(letter)
     if "## What came out" not in lines[end:]:
         raise BookError(f'{stem}.cpp: no section "## What came out", which answers the predictions')
