@@ -77,12 +77,14 @@
 // If some $z$ has $B_0 z = -B_1 w$, the first term is gone. The stiff energy is the square
 // of the rest divided by $t^2$: it is of order $t^2$, and the motion is free. If there is
 // no such $z$, the stiff energy keeps a part that does not depend on $t$: the motion is
-// neither stiff nor free, however thin the coating is. The iterated penalty of chapter 18
-// divides by $δ$ in place of $t^2$. With $δ$ far above $t^2$ it sees only the share $t^2/δ$
-// of this part, and each correction brings in one more such share: it takes many. The
-// remedy is $δ = t^2$. Down to $t = 10^{-6}$ the factor still keeps enough digits of $A_1$.
-// CR in both components needs no remedy: its slope across takes any values, one per
-// triangle, so there always is a $z$.
+// neither stiff nor free, however thin the coating is. For P1 in columns $w = (u(x), 0)$ is
+// such a motion if $u$ has a kink at a vertical mesh line: the two triangles at an edge of
+// this line have the same slope $v_Y$ along it, and two different $u_x$ (exercise 4). The
+// iterated penalty of chapter 18 divides by $δ$ in place of $t^2$. With $δ$ far above $t^2$
+// it sees only the share $t^2/δ$ of this part, and each correction brings in one more such
+// share: it takes many. The remedy is $δ = t^2$. Down to $t = 10^{-6}$ the factor still
+// keeps enough digits of $A_1$. CR in both components needs no remedy: its slope across
+// takes any values, one per triangle, so there always is a $z$.
 
 #include <CLI/CLI.hpp>
 
@@ -244,7 +246,8 @@ void judge(const Table& forces, const Table& diagnoses, int cells,
 // ## Exercises
 //
 // 1. Drop the completed square: rows $t u_x + v_Y$ (weight $λ$), $v_Y$ ($2μ$) and
-//    $u_Y + t v_x$ ($μ$), $a_1$ with $2μ u_x^2$. How much further does the coating stretch at $t = 0$ than at $t = 10^{-6}$?
+//    $u_Y + t v_x$ ($μ$), $a_1$ with $2μ u_x^2$. How much further does the coating stretch
+//    at $t = 0$ than at $t = 10^{-6}$?
 // 2. CR / P1 at 1/h = 8 and 16: how does $\dim G_h$ grow, and how many independent motions
 //    of the bounds are in it?
 // 3. Press P1 in columns at $t = 10^{-4}$, $10^{-5}$, $10^{-6}$ with that penalty. How do
