@@ -267,6 +267,13 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
 // 2. How far does $ε = 0.1$ let half waves see a string: for which $k$ has $s_k$ lost half
 //    of $T + a^2$?
 // 3. On paper: derive $T = a \coth a$, and $s_k(1) = a \coth 2a$. Why must this be so?
+//
+// ## Further reading
+//
+// - [Kikuchi and Oden 1988](../guides/bibliography.md#kikuchi-1988): contact as an
+//   inequality, with finite elements.
+// - [Glowinski 1984](../guides/bibliography.md#glowinski-1984): the method of Uzawa, with
+//   which the paper computes its reference solution.
 
 #include "answers.hpp"
 

@@ -257,6 +257,14 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // 2. Move the vertices of the structured mesh by up to $h/10$. Does $K_{0h}$ of P1 approach
 //    $K_0$?
 // 3. On paper: where is $K_h$ of P2 not a part of $K$? Draw a parabola.
+//
+// ## Further reading
+//
+// - [Mosco 1969](../guides/bibliography.md#mosco-1969): the two conditions, for sets
+//   without jumps.
+// - [Brezis 2011](../guides/bibliography.md#brezis-2011): weak limits.
+// - [Ciarlet 2002](../guides/bibliography.md#ciarlet-2002): interpolation, and the obstacle
+//   problem.
 
 #include "answers.hpp"
 

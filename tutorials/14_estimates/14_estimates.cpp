@@ -277,6 +277,12 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //    get?
 // 3. On paper: for P1 the second infimum is not positive. Why may it be positive for P2,
 //    although P2 is conforming?
+//
+// ## Further reading
+//
+// - [Falk 1974](../guides/bibliography.md#falk-1974): the estimate that Theorem 2 extends.
+// - [Brenner and Scott 2008](../guides/bibliography.md#brenner-2008): nonconforming
+//   elements, and the inequality that (H1nc) needs.
 
 #include "answers.hpp"
 

@@ -303,6 +303,12 @@ void judge(const Table& lost, const Table& walls, const Table& flat,
 //    structured mesh?
 // 3. On paper: the ridge is $\sin πx$ in place of $\sin 2πx$. Does the wall move to smaller
 //    or to larger ε?
+//
+// ## Further reading
+//
+// - [Falk 1974](../guides/bibliography.md#falk-1974): the estimate behind (28).
+// - [Babuška and Suri 1992](../guides/bibliography.md#babuska-1992): what a bound that is
+//   uniform in ε promises.
 
 #include "answers.hpp"
 

@@ -217,6 +217,13 @@ void judge(const Table& results, tutorial::Report& report) {
 // 1. A coarse unstructured mesh (1/h = 4) and ε = 1e-4: P1 and P2 both lock under
 //    $\sin 2πx$. And under $10 \sin πx$?
 // 2. On paper: a mesh of the layer on which P1 has exactly 3 kernel functions.
+//
+// ## Further reading
+//
+// - [Babuška and Suri 1992](../guides/bibliography.md#babuska-1992): the definitions of
+//   locking and robustness.
+// - [Babuška and Suri 1992b](../guides/bibliography.md#babuska-1992b): the same for nearly
+//   incompressible materials.
 
 #include "answers.hpp"
 

@@ -285,6 +285,13 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //    ε?
 // 4. On paper: without contact, how large can the $L^2(Ω^+)$ error of a conforming method
 //    be on the ball?
+//
+// ## Further reading
+//
+// - [Babuška and Suri 1992](../guides/bibliography.md#babuska-1992): the definition over a
+//   set of solutions.
+// - [Babuška and Suri 1992b](../guides/bibliography.md#babuska-1992b): the same for nearly
+//   incompressible materials.
 
 #include "answers.hpp"
 

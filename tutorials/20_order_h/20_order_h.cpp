@@ -282,6 +282,13 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //    nearer to 1, 10 or 1000?
 // 4. On paper: where does Theorem A use $u ≥ 0$? Which gaps $g$ does its proof allow, with
 //    $u ≥ -g$ on $Γ_C$?
+//
+// ## Further reading
+//
+// - [Brenner and Scott 2008](../guides/bibliography.md#brenner-2008): nonconforming
+//   elements, and means over edges.
+// - [Chouly, Hild and Renard 2023](../guides/bibliography.md#chouly-2023): the numerical
+//   analysis of contact today.
 
 #include "answers.hpp"
 

@@ -311,6 +311,13 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report,
 //    8 to 64, and those of Uzawa?
 // 2. On paper: errors are like $h^2$, seconds like $N = h^{-2}$. What does a digit cost?
 //    And with errors like $h$?
+//
+// ## Further reading
+//
+// - [Glowinski 1984](../guides/bibliography.md#glowinski-1984): Uzawa's method and its
+//   step.
+// - [Hintermüller, Ito and Kunisch 2002](../guides/bibliography.md#hintermueller-2002): why
+//   the active set needs few steps from a good start.
 
 #include "answers.hpp"
 

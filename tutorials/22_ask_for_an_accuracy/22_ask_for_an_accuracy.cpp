@@ -196,6 +196,13 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //    cost, adapted and uniform?
 // 3. A spike of the load lies between the points of the first mesh's quadrature. Is it
 //    seen? (`resolve_load`)
+//
+// ## Further reading
+//
+// - [Prager and Synge 1947](../guides/bibliography.md#prager-1947): the identity behind the
+//   bound.
+// - [Repin and Valdman 2017](../guides/bibliography.md#repin-2017): the same with an
+//   obstacle.
 
 #include "answers.hpp"
 

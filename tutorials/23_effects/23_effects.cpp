@@ -235,6 +235,13 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
 //    cost, what does it answer?
 // 2. Take P1 for Crouzeix–Raviart on this unstructured mesh. Which models of the layer
 //    lock: (23), (24), (25)?
+//
+// ## Further reading
+//
+// - [Slimane and Renard 2004](../guides/bibliography.md#slimane-2004): the problems (22) to
+//   (25).
+// - [Brezis 2011](../guides/bibliography.md#brezis-2011): the functional analysis behind
+//   their limits.
 
 #include "answers.hpp"
 

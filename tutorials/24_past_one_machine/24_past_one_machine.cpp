@@ -307,6 +307,13 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 // 3. Predict, then try: strips of half the height. (Change `strips_of_layer`.)
 // 4. On paper: how many columns must the coarse mesh have for 1,024 ranks, and how often is
 //    it refined for $10^9$ unknowns?
+//
+// ## Further reading
+//
+// - [Hintermüller, Ito and Kunisch 2002](../guides/bibliography.md#hintermueller-2002): the
+//   active set as a method of Newton.
+// - [Higham 2002](../guides/bibliography.md#higham-2002): rounding, and why a residual must
+//   be formed with care.
 
 #include "answers.hpp"
 

@@ -245,6 +245,12 @@ void judge_uniform(const Table& full, const Table& reduced, tutorial::Report& re
 // 2. How many cells does full integration need at ε = 1e-4 to be 1 % too stiff?
 // 3. On paper: for which loads is reduced integration the exact form on another space?
 //    Compute $∫ b$ on a cell.
+//
+// ## Further reading
+//
+// - [Braess 2007](../guides/bibliography.md#braess-2007): locking of beams and plates.
+// - [Babuška and Suri 1992](../guides/bibliography.md#babuska-1992): the definitions of
+//   locking and robustness.
 
 #include "answers.hpp"
 

@@ -276,6 +276,13 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
 // 4. On paper: let $w$ be quadratic on an equilateral triangle with edges $h$. What is the
 //    mean square of the error of its P1 interpolant? Derive the 14.6 of *What can be
 //    expected*.
+//
+// ## Further reading
+//
+// - [Braess 2007](../guides/bibliography.md#braess-2007): Reissner and Mindlin's plate and
+//   its elements.
+// - [Brenner and Scott 2008](../guides/bibliography.md#brenner-2008): nonconforming
+//   elements, and Korn's inequality.
 
 #include "answers.hpp"
 

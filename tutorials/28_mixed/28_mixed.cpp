@@ -188,8 +188,8 @@ Table measure(const Projection& way, int cells, const std::vector<Exact>& exact_
   return rows;
 }
 
-// P2, its strain averaged by the hat functions of the vertices, half of the stiff form kept:
-// the $H^1$ error in contact at each ε.
+// P2, its strain averaged by the hat functions of the vertices, half of the stiff form
+// kept: the $H^1$ error in contact at each ε.
 Table averaged_p2(int cells, const std::vector<Exact>& exact_solution) {
   const Space space = Method{&p2(), unstructured()}.space(cells);
   const StrainProjection means =
@@ -325,8 +325,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // P2 can be averaged in the same way, with the hat functions of the vertices as weights and
 // half of the stiff form kept. Without contact its error in $H^1$ then falls like $h^2$ on
 // Delaunay meshes (observed; exercise 3 of [chapter 38](../38_order_two/38_order_two.cpp)).
-// In contact, from $1/h = 8$ to 32, its order is 1.81 at ε = 0, and 1.77 for the worst error
-// over ε (observed).
+// In contact, from $1/h = 8$ to 32, its order is 1.81 at ε = 0, and 1.77 for the worst
+// error over ε (observed).
 // :number: 1.81 = line "P2 and hat functions (half kept), in contact at epsilon = 0: H1 error (observed): order {}"
 // :number: 1.77 = line "P2 and hat functions (half kept), in contact: sup over epsilon (observed): order {}"
 //
@@ -336,6 +336,12 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // 2. On paper: which problem do the columns solve as $h → 0$?
 // 3. On paper: which slope $∫ ∂_y v \sin πx \sin πy$ can a $v$ of norm 1 have, if $v$ is
 //    equal on Σ and on $Γ_C$?
+//
+// ## Further reading
+//
+// - [Boffi, Brezzi and Fortin 2013](../guides/bibliography.md#boffi-2013): mixed methods.
+// - [Arnold and Brezzi 1985](../guides/bibliography.md#arnold-1985): mixed and
+//   nonconforming elements as two forms of one method.
 
 #include "answers.hpp"
 

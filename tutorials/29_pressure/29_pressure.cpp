@@ -56,10 +56,10 @@
 // taken over such $v_h$. The table also has it over all $v_h$, and over those that are 0 on
 // the contact set of the solution.
 //
-// **The layer's stress.** The same question can be asked of it, with $B v = ∂_y v$. Measure $q$ there by
-// its largest work on *all* displacements of norm 1, not on the discrete ones alone
-// (the *dual norm*). Then $β = 1$ says: whatever stress some displacement sees, a discrete
-// one sees as well. For CR β is at least 1 on every mesh, because chapter 08's
+// **The layer's stress.** The same question can be asked of it, with $B v = ∂_y v$. Measure
+// $q$ there by its largest work on *all* displacements of norm 1, not on the discrete ones
+// alone (the *dual norm*). Then $β = 1$ says: whatever stress some displacement sees, a
+// discrete one sees as well. For CR β is at least 1 on every mesh, because chapter 08's
 // interpolation keeps $(q, ∂_y v)$ and does not enlarge $|v|_1$ (Fortin's property). For P1
 // on columns β is 0, since the rows of $B$ depend on each other (chapter 03: two triangles
 // share each vertical edge), and yet nothing locks: a positive inf-sup constant is
@@ -176,9 +176,9 @@ void judge(const Table& beta, const Table& forces, tutorial::Report& report) {
 // :number: 0.58 = table "inf-sup constant, held: all" 0.0625 "name=CR with jumps"
 //
 // (b) By less than 1 %. P1 with a pressure per vertex has $β = 0$ even where nothing is
-// held. Its largest pressure is 3.7 where Taylor–Hood has 1.0, and yet its force is right to
-// 0.9 % at 1/h = 32: a force does not show the noise. The numbers of unknowns differ: P1 has
-// 2112, MINI and CR 6208, Taylor–Hood 8320.
+// held. Its largest pressure is 3.7 where Taylor–Hood has 1.0, and yet its force is right
+// to 0.9 % at 1/h = 32: a force does not show the noise. The numbers of unknowns differ: P1
+// has 2112, MINI and CR 6208, Taylor–Hood 8320.
 // :number: 3.7 = table incompressible pressure "name=P1 (pressure per vertex)"
 // :number: 1.0 = table incompressible pressure name=Taylor-Hood
 // :number: 0.9 = table "error of the contact force" 0 "name=P1 (pressure per vertex)"
@@ -190,12 +190,19 @@ void judge(const Table& beta, const Table& forces, tutorial::Report& report) {
 //
 // 1. Hold the rubber's sides too. What becomes of β while the groove fills up, and of the
 //    solution at ε = 0 after that?
+//
+// ## Further reading
+//
+// - [Boffi, Brezzi and Fortin 2013](../guides/bibliography.md#boffi-2013): pressures as
+//   unknowns, and inf-sup conditions.
+// - [Chouly, Hild and Renard 2023](../guides/bibliography.md#chouly-2023): contact in
+//   elasticity.
 
 // :page: 29_gradients
 // # Rubber that a gradient loads
 //
-// **Afterwards you can** say why a load that is a gradient moves a discrete block of rubber,
-// tell this from locking, and repair it in the load alone.
+// **Afterwards you can** say why a load that is a gradient moves a discrete block of
+// rubber, tell this from locking, and repair it in the load alone.
 //
 // Needs: [29](../29_pressure/29_pressure.cpp) for the pressure as an unknown and the five
 // methods, [26](../26_elasticity/26_elasticity.cpp) for the block of rubber.
@@ -217,8 +224,8 @@ void judge(const Table& beta, const Table& forces, tutorial::Report& report) {
 // ψ. If λ is finite, it moves by the order of $1/λ$ (exercise 3).
 //
 // But a discrete $v_h$ keeps the volume in the mean only, that is,
-// $(q_h, \operatorname{div} v_h) = 0$ for all discrete pressures $q_h$. So the load does the
-// work
+// $(q_h, \operatorname{div} v_h) = 0$ for all discrete pressures $q_h$. So the load does
+// the work
 //
 // $$ (∇ψ, v_h) = -(ψ, \operatorname{div} v_h) = -(ψ - q_h, \operatorname{div} v_h) $$
 //
@@ -242,10 +249,10 @@ void judge(const Table& beta, const Table& forces, tutorial::Report& report) {
 // $\operatorname{div} Π v_h = \operatorname{div} v_h$, it is 0 exactly, and so is
 // $(∇ψ, Π v_h)$.
 //
-// Which gradient is the worst? The load is a sum of waves. $u_h$ is linear in
-// its coefficients $c$, so $|u_h|^2$ is $c^T Q c$ with a symmetric matrix $Q$. Among all $c$
-// of length 1 it is largest for the eigenvector of the largest eigenvalue of $Q$. The
-// Lanczos iteration finds it by products with $Q$ alone, that is by solves
+// Which gradient is the worst? The load is a sum of waves. $u_h$ is linear in its
+// coefficients $c$, so $|u_h|^2$ is $c^T Q c$ with a symmetric matrix $Q$. Among all $c$ of
+// length 1 it is largest for the eigenvector of the largest eigenvalue of $Q$. The Lanczos
+// iteration finds it by products with $Q$ alone, that is by solves
 // ([17](../17_families_of_loads/17_families_of_loads.cpp) does the same).
 
 // ### Solve
@@ -303,9 +310,9 @@ void judge_gradients(const Table& worst, const Table& by_lambda, tutorial::Repor
 // :output: moved by the worst gradient
 //
 // (a) By 1.7 from 1/8 to 1/16: the motion of MINI falls from 0.0086 to 0.0052. The orders
-// in $h$ are 0.7 to 0.8 and still grow, and CR's are 0.94 to 0.98. The bound $C h$ allows no
-// order that stays below 1. CR, which has the largest β, moves most: a large β does not make
-// a method gradient-robust.
+// in $h$ are 0.7 to 0.8 and still grow, and CR's are 0.94 to 0.98. The bound $C h$ allows
+// no order that stays below 1. CR, which has the largest β, moves most: a large β does not
+// make a method gradient-robust.
 // :number: 0.0086 = table "moved by the worst" 0.125 name=MINI
 // :number: 0.0052 = table "moved by the worst" 0.0625 name=MINI
 // :number: 0.7 = line "gradient loads move MINI: orders in h {}"
@@ -324,6 +331,13 @@ void judge_gradients(const Table& worst, const Table& by_lambda, tutorial::Repor
 //    $(∇ψ, Π v_h) = 0$ although $Π v_h$ is not in $H^1$?
 // 3. On paper: why does the exact block move by at most the order of $1/λ$? Take the
 //    inf-sup constant β of the exact problem for granted.
+//
+// ## Further reading
+//
+// - [Boffi, Brezzi and Fortin 2013](../guides/bibliography.md#boffi-2013): the fields of
+//   Raviart and Thomas.
+// - [Babuška and Suri 1992b](../guides/bibliography.md#babuska-1992b): locking of nearly
+//   incompressible materials, in the sense of chapter 13.
 
 #include "answers.hpp"
 

@@ -383,8 +383,16 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
 // 1. Start Coulomb's law with $F = 1/4$ from $N$ without friction. By how much does a step
 //    reduce the change of $N$?
 // 2. A bar of stiffness 1 lies on a floor with $g = 1$. Its end at $x = 1$ is pulled by the
-//    force 1/2. How far does it slip, and by how much does its end move? Three lines of A1, one bound per node: no block is needed.
+//    force 1/2. How far does it slip, and by how much does its end move? Three lines of A1,
+//    one bound per node: no block is needed.
 // 3. On paper: where is $T$ the multiplier of a constraint, where is it data?
+//
+// ## Further reading
+//
+// - [Chouly, Hild and Renard 2023](../guides/bibliography.md#chouly-2023): contact with
+//   friction, from Tresca to Coulomb.
+// - [Kikuchi and Oden 1988](../guides/bibliography.md#kikuchi-1988): friction as an
+//   inequality.
 
 #include "answers.hpp"
 

@@ -270,6 +270,12 @@ void judge(const Table& results, const Exact& exact, tutorial::Report& report) {
 //    does hp's error follow?
 // 4. On paper: on one mesh with a vertex at the end, degree $p → ∞$ gives $p^{-3}$. Why
 //    twice the order of $h^{3/2}$?
+//
+// ## Further reading
+//
+// - [Ciarlet 2002](../guides/bibliography.md#ciarlet-2002): interpolation and its orders.
+// - [Chouly, Hild and Renard 2023](../guides/bibliography.md#chouly-2023): orders of
+//   convergence in contact.
 
 #include "answers.hpp"
 

@@ -253,6 +253,12 @@ void judge(const Table& forces, const Table& diagnoses, int cells,
 // 3. Press P1 in columns at $t = 10^{-4}$, $10^{-5}$, $10^{-6}$ with that penalty. How do
 //    the corrections grow?
 // 4. On paper: why is there no $z$ for P1 in columns, if $w = (u(x), 0)$ has a kink?
+//
+// ## Further reading
+//
+// - [Kikuchi and Oden 1988](../guides/bibliography.md#kikuchi-1988): contact in elasticity.
+// - [Babuška and Suri 1992b](../guides/bibliography.md#babuska-1992b): locking in
+//   elasticity.
 
 #include "answers.hpp"
 
