@@ -173,12 +173,12 @@ void judge(const Table& results, tutorial::Report& report) {
       if (law < 1e-3) locked = std::max(locked, kept);
     }
     report.claim(least > 0.95,
-                 "{}: of the ridge at least {:.2f} times 1/(1 + x) is kept (observed)",
+                 "{}: of the ridge at least {:.2f} times 1/(1 + rho) is kept (observed)",
                  element.text(), least);
     if (p == 1) report.claim(most < 2.5, "P1: and at most {:.2f} times (observed)", most);
     if (locked > 0)
       report.claim(locked < 0.01,
-                   "{} locks: where 1/(1 + x) < 1e-3 it keeps {:.2g} or less (observed)",
+                   "{} locks: where 1/(1 + rho) < 1e-3 it keeps {:.2g} or less (observed)",
                    element.text(), locked);
   }
 }
