@@ -17,6 +17,7 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/models/project_strain.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/proximal_galerkin.hpp"
 #include "antilock/study/scene_sweep.hpp"
@@ -427,6 +428,42 @@ Numbers mixed_bdm1(int cells, double epsilon, const std::filesystem::path& folde
       numbers.all.push_back(
           {fmt::format("{} on triangle {}", what, t), values(t, column), other(t), largest});
     ++column;
+  }
+  return numbers;
+}
+
+Numbers three_dimensions(int cells, const std::filesystem::path& folder) {
+  const Domain cube_on_layer{1, CellKind::tetrahedron};
+  const auto cubic = [](double x, double y) { return 60 * (1 - 2 * x) * y * (1 - y); };
+  Numbers numbers;
+  for (const auto& [mesh, epsilon] : {std::pair{structured_mesh(cells, cube_on_layer), 1e-6},
+                                      {unstructured_mesh(cells, cube_on_layer), 1e-2}}) {
+    const Space space(mesh, p1(CellKind::tetrahedron));
+    write_freefem_mesh(folder / "tetrahedra.mesh", mesh);
+    run("39_three_dimensions", {"-mesh", folder / "tetrahedra.mesh", "-load", "cubic", "-epsilon",
+                                fmt::format("{}", epsilon), "-out", folder});
+    const ScriptTable summary = read_table(folder / "summary.csv", 1);
+    const ScriptTable theirs = read_table(folder / "solution.csv");
+    const VariationalInequality problem =
+        antilock::assemble(Scene(Body{cubic}, StiffLayer{epsilon}, UnilateralContact{}), space);
+    const Solution ours = active_set(problem);
+    numbers.took(summary.names[0]);
+    numbers.solved(space, ours);
+    numbers.freefem_seconds += summary.column("seconds")(0);
+    Points places(theirs.rows.rows(), 3);
+    places << theirs.column("x"), theirs.column("y"), theirs.column("z");
+    const std::vector<int> order = match(space.dof_coordinates(), places);
+    const Eigen::VectorXd u = theirs.column("u")(order), force = theirs.column("force")(order);
+    const Eigen::VectorXd our_force = bound_forces(problem.bounds, ours.lambda, space.size());
+    const double largest_u = ours.u.cwiseAbs().maxCoeff(), largest_force = our_force.maxCoeff();
+    for (int i = 0; i < space.size(); ++i) {
+      numbers.all.push_back({fmt::format("u at vertex {}", i), ours.u(i), u(i), largest_u});
+      numbers.all.push_back(
+          {fmt::format("force at vertex {}", i), our_force(i), force(i), largest_force});
+    }
+    numbers.relative("largest u on Gamma_C", ours.u(problem.bounds.unknowns).maxCoeff(),
+                     summary.column("largest")(0));
+    numbers.relative("energy", energy(problem, ours), summary.column("energy")(0));
   }
   return numbers;
 }

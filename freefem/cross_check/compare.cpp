@@ -375,6 +375,10 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
                   "and their derivatives",
                   half),
       freefem::mixed_bdm1(half, 0, folder));
+  add("39_three_dimensions",
+      "P1 on tetrahedra, h = 1/8, cut cubes at epsilon = 1e-6 and gmsh's mesh at 0.01: u, contact "
+      "forces, energy",
+      freefem::three_dimensions(8, folder));
   return lines;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -62,19 +63,25 @@ std::vector<int> match(const Points& ours, const Points& theirs) {
   if (ours.rows() != theirs.rows())
     throw Error(fmt::format("match: {} unknowns here, {} there", ours.rows(), theirs.rows()));
   const auto cell = [](double x) { return std::llround(x / same_place); };
-  std::map<std::pair<long long, long long>, int> row;
-  for (Eigen::Index i = 0; i < theirs.rows(); ++i)
-    row[{cell(theirs(i, 0)), cell(theirs(i, 1))}] = static_cast<int>(i);
+  const auto cells = [&](const Points& points, Eigen::Index i) {
+    std::array<long long, 3> key{};  // in the plane the third number is 0
+    for (Eigen::Index k = 0; k < points.cols(); ++k) key[k] = cell(points(i, k));
+    return key;
+  };
+  std::map<std::array<long long, 3>, int> row;
+  for (Eigen::Index i = 0; i < theirs.rows(); ++i) row[cells(theirs, i)] = static_cast<int>(i);
   if (static_cast<Eigen::Index>(row.size()) != theirs.rows())
     throw Error("match: two unknowns at one place");
   std::vector<int> rows(ours.rows(), -1);
   std::vector<char> taken(ours.rows(), 0);
   for (Eigen::Index i = 0; i < ours.rows(); ++i) {
+    const auto [x, y, z] = cells(ours, i);
     for (const int dx : {0, -1, 1})  // round-off may put the same point into the next cell
       for (const int dy : {0, -1, 1})
-        if (const auto found = row.find({cell(ours(i, 0)) + dx, cell(ours(i, 1)) + dy});
-            found != row.end() && rows[i] < 0)
-          rows[i] = found->second;
+        for (const int dz : {0, -1, 1})
+          if (const auto found = row.find({x + dx, y + dy, z + dz});
+              found != row.end() && rows[i] < 0)
+            rows[i] = found->second;
     if (rows[i] < 0 || taken[rows[i]]++)
       throw Error(
           fmt::format("match: no unknown of its own at ({:.9g}, {:.9g})", ours(i, 0), ours(i, 1)));

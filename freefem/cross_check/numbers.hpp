@@ -94,5 +94,9 @@ Numbers interior_penalty(int cells, double epsilon, const std::filesystem::path&
 /// the mean of u, the stress at the centroid and its derivatives on every triangle, relative to
 /// their largest value.
 Numbers mixed_bdm1(int cells, double epsilon, const std::filesystem::path& folder);
+/// 39: P1 on tetrahedra in contact, on cut cubes at epsilon = 1e-6 and on gmsh's mesh at 1e-2, the
+/// load for which both rules are exact: u at every vertex and the contact forces, relative to their
+/// largest value; largest u on Gamma_C, energy.
+Numbers three_dimensions(int cells, const std::filesystem::path& folder);
 
 }  // namespace antilock::freefem

@@ -454,6 +454,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"34_solving_the_inequality", {"results.csv"}},
       {"35_interior_penalty", {"whole.csv", "mean.csv", "summary.csv", "whole.eps", "mean.eps"}},
       {"38_order_two", {"stress.csv", "summary.csv", "u.eps"}},
+      {"39_three_dimensions", {"cubes.mesh", "solution.csv", "summary.csv"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {
     const TemporaryFolder folder;

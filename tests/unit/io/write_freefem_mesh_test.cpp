@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -72,6 +74,47 @@ TEST(WriteFreefemMesh, HoldsTheCountsTheLabelsAndTheSameNumbering) {
     if (edge(2) != 5) continue;
     EXPECT_LT(mesh.vertices(edge(0) - 1, 0), mesh.vertices(edge(1) - 1, 0)) << "the domain is left";
   }
+}
+
+// A cube over two flat boxes of the layer, each cut into six tetrahedra. Faces: two on Sigma, two
+// on Gamma_C, two on the top, and 24 on the sides.
+TEST(WriteFreefemMesh, WritesTetrahedraInMeditsFormat) {
+  const TemporaryFolder folder;
+  const Mesh mesh = structured_mesh(1, {1, CellKind::tetrahedron});
+  write_freefem_mesh(folder / "cube.mesh", mesh);
+  std::istringstream in(contents(folder / "cube.mesh"));
+  std::string word;
+  int number = 0;
+  const auto expect_section = [&](const std::string& name, int count) {
+    ASSERT_TRUE(in >> word >> number);
+    EXPECT_EQ(word, name);
+    EXPECT_EQ(number, count) << name;
+  };
+  expect_section("MeshVersionFormatted", 2);
+  expect_section("Dimension", 3);
+  expect_section("Vertices", mesh.vertex_count());
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    Eigen::Vector3d x;
+    ASSERT_TRUE(in >> x(0) >> x(1) >> x(2) >> number);
+    EXPECT_EQ(x.transpose(), mesh.vertices.row(v)) << v;
+  }
+  expect_section("Tetrahedra", 18);
+  for (int t = 0; t < 18; ++t) {
+    Eigen::RowVector4i corners;
+    ASSERT_TRUE(in >> corners(0) >> corners(1) >> corners(2) >> corners(3) >> number);
+    EXPECT_EQ((corners.array() - 1).matrix(), mesh.triangles.row(t)) << t;
+    EXPECT_EQ(number, static_cast<int>(mesh.region[t])) << t;
+  }
+  expect_section("Triangles", 30);
+  std::map<int, int> faces;
+  for (int e = 0; e < 30; ++e) {
+    Eigen::Vector3i corners;
+    ASSERT_TRUE(in >> corners(0) >> corners(1) >> corners(2) >> number);
+    ++faces[number];
+  }
+  EXPECT_EQ(faces, (std::map<int, int>{{3, 2}, {4, 26}, {5, 2}}));
+  ASSERT_TRUE(in >> word);
+  EXPECT_EQ(word, "End");
 }
 
 }  // namespace antilock::test::io_test::write_freefem_mesh_test

@@ -172,8 +172,10 @@ TEST(PlaneOnly, Files) {
   const TemporaryFolder folder;
   const Mesh mesh = body_alone();
   const Eigen::MatrixX3d corners = Eigen::MatrixX3d::Zero(mesh.triangle_count(), 3);
-  expect_refused([&] { write_freefem_mesh(folder / "mesh.msh", mesh); }, triangles);
   expect_refused([&] { write_vtu(folder / "u.vtu", mesh, corners); }, triangles);
+  const Mesh squares = structured_mesh(2, {1, CellKind::quadrilateral});
+  expect_refused([&] { write_freefem_mesh(folder / "mesh.msh", squares); },
+                 "a mesh of quadrilaterals; accepted: triangles or tetrahedra");
 }
 
 TEST(PlaneOnly, Quadrilaterals) {
