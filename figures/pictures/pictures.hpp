@@ -29,6 +29,8 @@ struct SurfaceStyle {
   /// The range of the last surface, for example a difference, on a scale of its own; empty: none.
   std::optional<Range> last_range = {};
   std::string last_name = "$u$";  ///< the quantity on that scale
+  /// Whether body, layer and Sigma are named where they meet at y = 0.
+  bool regions = true;
 };
 
 struct Surface {
@@ -39,6 +41,15 @@ struct Surface {
 /// Draws Figures 4, 5, 7 and 8: one solution, or several side by side, as surfaces on the same
 /// scale. Up to four are drawn two per row, more than four three per row.
 Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& style);
+
+/// The settings of a picture of bodies of tetrahedra that are cut open.
+struct CutStyle {
+  double at = 0.5;                  ///< the cut is the plane y = at; the half behind it is drawn
+  std::optional<Range> range = {};  ///< the range of the colours; empty: that of the data
+};
+/// Draws bodies in space (VTU of tetrahedra with point data u) side by side, on one scale of
+/// colours.
+Page cut_picture(const std::vector<Surface>& bodies, const CutStyle& style);
 
 /// The settings of a picture of solutions from above, three per row, in a window of the plane, on
 /// one scale of colours.

@@ -147,13 +147,10 @@ vtkSmartPointer<vtkPolyData> lifted(const vtkSmartPointer<vtkPolyData>& flat, do
   return surface;
 }
 
-void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface,
-                 const Range& range, const std::optional<int>& grid, const Vector& towards_eye) {
-  vtkNew<vtkPolyData> closed;
-  closed->DeepCopy(surface);
-  Steps(*closed).add();
+void add_coloured(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface,
+                  const Range& range) {
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(closed);
+  mapper->SetInputData(surface);
   mapper->SetLookupTable(viridis_table(range));
   mapper->SetScalarRange(range.low, range.high);
   mapper->InterpolateScalarsBeforeMappingOn();
@@ -165,10 +162,23 @@ void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surf
   property->SetDiffuse(0.5);
   property->SetSpecular(0);
   renderer.AddActor(actor);
-  if (grid) return add_grid(renderer, surface, *grid, towards_eye);
+}
+
+void add_edges(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface,
+               const Vector& towards_eye) {
   vtkNew<vtkExtractEdges> edges;
   edges->SetInputData(surface);
   add_lines(renderer, edges->GetOutputPort(), 0.8, 0.24, towards_eye);
+}
+
+void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface,
+                 const Range& range, const std::optional<int>& grid, const Vector& towards_eye) {
+  auto closed = vtkSmartPointer<vtkPolyData>::New();
+  closed->DeepCopy(surface);
+  Steps(*closed).add();
+  add_coloured(renderer, closed, range);
+  if (grid) return add_grid(renderer, surface, *grid, towards_eye);
+  add_edges(renderer, surface, towards_eye);
 }
 
 }  // namespace antilock::figures

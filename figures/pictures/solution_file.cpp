@@ -20,8 +20,8 @@ namespace antilock::figures {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
-  throw Error(fmt::format("{}: {}; accepted: a VTU file of triangles as the tutorials write it",
-                          path.string(), reason));
+  throw Error(
+      fmt::format("{}: {}; accepted: a VTU file as the tutorials write it", path.string(), reason));
 }
 
 /// VTK reports a bad file by an event (or, unheard, by several lines on standard error).
@@ -61,6 +61,19 @@ vtkDataArray* array_of(const std::filesystem::path& path, vtkDataSetAttributes* 
   return array;
 }
 
+/// Refuses cells whose corners are not points of the file.
+void check_corners(const std::filesystem::path& path, vtkUnstructuredGrid& grid) {
+  for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    grid.GetCellPoints(cell, size, corners);
+    for (vtkIdType i = 0; i < size; ++i)
+      if (corners[i] < 0 || corners[i] >= grid.GetNumberOfPoints())
+        refuse(path, fmt::format("cell {} has a corner {}, but there are {} points", cell,
+                                 corners[i], grid.GetNumberOfPoints()));
+  }
+}
+
 /// The points and triangles, without data.
 vtkSmartPointer<vtkPolyData> triangles_of(const std::filesystem::path& path,
                                           vtkUnstructuredGrid& grid) {
@@ -72,12 +85,9 @@ vtkSmartPointer<vtkPolyData> triangles_of(const std::filesystem::path& path,
     const vtkIdType* corners = nullptr;
     grid.GetCellPoints(cell, size, corners);
     if (size != 3) refuse(path, fmt::format("cell {} is a triangle with {} corners", cell, size));
-    for (int i = 0; i < 3; ++i)
-      if (corners[i] < 0 || corners[i] >= grid.GetNumberOfPoints())
-        refuse(path, fmt::format("cell {} has a corner {}, but there are {} points", cell,
-                                 corners[i], grid.GetNumberOfPoints()));
     triangles->InsertNextCell(size, corners);
   }
+  check_corners(path, grid);
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   surface->SetPoints(grid.GetPoints());
   surface->SetPolys(triangles);
@@ -92,6 +102,16 @@ vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path) {
   auto surface = triangles_of(path, *grid);
   surface->GetPointData()->SetScalars(u);
   return surface;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_body(const std::filesystem::path& path) {
+  auto grid = read_grid(path);
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+    if (grid->GetCellType(cell) != VTK_TETRA)
+      refuse(path, fmt::format("cell {} is not a tetrahedron", cell));
+  check_corners(path, *grid);
+  grid->GetPointData()->SetScalars(array_of(path, grid->GetPointData(), "u", 1));
+  return grid;
 }
 
 Range range_of(vtkPolyData& solution) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <filesystem>
 
@@ -13,7 +14,11 @@ namespace antilock::figures {
 /// other cells, or has no u or one that is not finite.
 vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path);
 
-/// Does the same for a deformed body: the cell data `pressure` are the scalars of the cells, and
+/// Reads a VTU file of tetrahedra with point data `u`, which are the scalars. Throws Error as
+/// read_solution does.
+vtkSmartPointer<vtkUnstructuredGrid> read_body(const std::filesystem::path& path);
+
+/// Does the same as read_solution for a deformed body: the cell data `pressure` are the scalars of the cells, and
 /// the point data `displacement` (three components) are the displacements of the points.
 vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path);
 

@@ -78,7 +78,7 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
     const Range range = own ? *style.last_range : shared;
     const Box cell = at.cell(i);
     AxesBox axes = make_axes_box(domain_of(*solutions[i]), range, drawn_height, detail);
-    axes.parts = parts_at_zero(*solutions[i]);
+    axes.parts = style.regions && parts_at_zero(*solutions[i]);
     const double left = widest_number(page, axes.u) + 65, below = 130;
     const Box inside{cell.x + left, cell.y + below, cell.width - left - 85,
                      cell.height - below - 10};

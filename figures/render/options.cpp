@@ -97,6 +97,8 @@ void add_pictures(CLI::App& app, Request& request) {
       ->add_option("--grid", request.grid,
                    "draw lines x, y = k / GRID in place of the mesh's edges")
       ->check(CLI::Range(1, 256));
+  surface->add_flag("--no-regions", request.no_regions,
+                    "do not name body and layer, which meet at y = 0");
   surface->callback([&] {
     request.draw = [&] {
       if (request.height_factor &&
@@ -108,7 +110,22 @@ void add_pictures(CLI::App& app, Request& request) {
       if (!request.own_range.empty())
         style.last_range = {request.own_range[0], request.own_range[1]};
       style.last_name = request.own_name;
+      style.regions = !request.no_regions;
       return surface_picture(titled(request), style);
+    };
+  });
+
+  auto* cut = add_picture(app, request, "cut", "bodies of tetrahedra, cut open, side by side",
+                          "SOLUTION.vtu");
+  cut->add_option("--title", request.titles, "one title per solution");
+  cut->add_option("--range", request.range,
+                  "smallest and largest u of the colours (default: the data's)")
+      ->expected(2);
+  cut->add_option("--at", request.cut.at, "the y of the cut")->capture_default_str();
+  cut->callback([&] {
+    request.draw = [&] {
+      if (!request.range.empty()) request.cut.range = Range{request.range[0], request.range[1]};
+      return cut_picture(titled(request), request.cut);
     };
   });
 

@@ -14,13 +14,14 @@ struct Request {
   std::string out, title;
   std::vector<std::string> inputs, titles;
   std::vector<double> range, own_range, window;
-  bool check_layout = false, half = false;
+  bool check_layout = false, half = false, no_regions = false;
   int compression = 8;
   std::string own_name = "$u$";
   std::optional<double> height_factor;
   int grid = 0;
   ChartStyle chart;
   PlanStyle plan;
+  CutStyle cut;
   DeformedStyle deformed;
   CurvesStyle curves;
   MapStyle map;
