@@ -40,6 +40,8 @@ const Row rows[] = {
     {"P2 unstructured", "$P_2$, unstructured mesh", "$P_2$ unstructured", {red, down_triangle, 6}},
     {"P3 unstructured", "$P_3$, unstructured mesh", "$P_3$ unstructured", {indigo, diamond, 6}},
     {"P4 unstructured", "$P_4$, unstructured mesh", "$P_4$ unstructured", {black, triangle, 6}},
+    {"P1 jittered", "$P_1$, jittered mesh", "$P_1$ jittered", {red, down_triangle, 8}},
+    {"CR jittered", "Crouzeix–Raviart, jittered mesh", "CR jittered", {olive, down_triangle, 6}},
     {"P1", "$P_1$", "", {blue, circle, 6.5}},
     {"CR", "Crouzeix–Raviart", "CR", {purple, triangle, 8.5}},
     {"P2", "$P_2$", "", {indigo, down_triangle, 6}},

@@ -15,21 +15,21 @@
 // the functions without strain of P1 and of Crouzeix-Raviart in space, and compute from a
 // mesh of tetrahedra at which ε locking begins.
 //
-// **The picture.** A cube on a stiff layer at ε = 1e-6, cut open at $y = ½$. Height and
-// colour show $u$. The mesh of tetrahedra is the same on both sides, and is made by gmsh.
-// *On the left the functions are continuous, and the layer does not move. On the right only
-// their means over faces are continuous, and it does.*
+// **The picture.** A cube on a stiff layer at ε = 1e-6, cut open at $y = ½$. The
+// colour shows $u$. The mesh of tetrahedra is the same on both sides, and is made by gmsh.
+// *On the left the functions are continuous, and $u$ is 0 on the layer, below $z = 0$. On
+// the right only their means over faces are continuous, and the layer follows the body.*
 //
 // :figure: three_dimensions
 //
 // **Predict.** The cube is cut into small cubes, and each small cube into six tetrahedra.
-// This mesh is called *structured*. In the *jittered* mesh each vertex inside of the body or
-// of the layer has moved by up to $0.2 h$ in $x$, $y$ and $z$. The *unstructured* mesh is
-// gmsh's. (a) On which of the three does P1 lock, that is, on which does its layer not move
-// at ε = 1e-6? (b) A function without strain is one whose derivative across the layer is 0
-// on each tetrahedron. The Crouzeix-Raviart element has one unknown per face here. How many
-// functions without strain does it have for each tetrahedron of the layer: about a quarter,
-// a half, or one?
+// This mesh is called *structured*. In the *jittered* mesh each vertex inside of the body
+// or of the layer has moved by up to $0.2 h$ in $x$, $y$ and $z$. The *unstructured* mesh
+// is gmsh's. (a) On which of the three does P1 lock, that is, on which does its layer not
+// move at ε = 1e-6? (b) A function without strain is one whose derivative across the layer
+// is 0 on each tetrahedron. The Crouzeix-Raviart element has one unknown per face here. How
+// many functions without strain does it have for each tetrahedron of the layer: about a
+// quarter, a half, or one?
 //
 // ## The problem in space
 //
@@ -38,12 +38,13 @@
 // As in [chapter 01](../01_domain/01_domain.cpp) the layer is stretched to the depth 1 by
 // $z → z/ε$. Each derivative in $z$ then brings $1/ε$, and the volume brings ε:
 //
-// $$ \frac{1}{ε} ∫_{z > -ε} |∇v|^2 = ∫_{z > -1} (∂_x v)^2 + (∂_y v)^2 + ε^{-2} (∂_z v)^2. $$
+// $$ \frac{1}{ε} ∫_{z > -ε} |∇v|^2 = ∫_{z > -1} (∂_x v)^2 + (∂_y v)^2
+//   + ε^{-2} (∂_z v)^2. $$
 //
 // So the stiff form is $a_0(u, v) = ∫ ∂_z u\, ∂_z v$ over the layer: *the derivative across
 // the layer is stiff, as in the plane*. The two derivatives along it are not. Problem (23)
-// keeps its form, with $a_x^-$ replaced by the two terms along the layer. At ε = 0 the layer
-// is a membrane: $u$ depends on $x$ and $y$ alone there.
+// keeps its form, with $a_x^-$ replaced by the two terms along the layer. At ε = 0 the
+// layer is a membrane: $u$ depends on $x$ and $y$ alone there.
 //
 // The load is $f = 40 (1 - z)^3 \sin 2πx \sin πy$. It pulls up where $x < ½$ and presses
 // down elsewhere. It is larger near the layer, so that the layer takes a good part of the
@@ -58,51 +59,54 @@
 // - *The face is not vertical.* Seen from above its corners are a triangle. An affine
 //   function of $x$ and $y$ is determined by its values at the corners of a triangle. So
 //   the two functions are the same: the tetrahedra are **tied**.
-// - *The face is vertical.* Seen from above it is a segment. The two functions agree on this
-//   segment, and the slope across it may change.
+// - *The face is vertical.* Seen from above it is a segment. The two functions agree on
+//   this segment, and the slope across it may change.
 //
 // The tetrahedra that are connected by faces that are not vertical form a *group*, and each
 // group has one function $α + β x + γ y$. In the structured mesh a group is what lies below
-// one triangle of Σ. This is the aligned mesh of space. $v$ is then determined by its values
-// at the inner vertices of Σ, and these are free: there are $(n - 1)^2$ functions without
-// strain, $n = 1/h$. In the plane there were $n - 1$. On gmsh's mesh there is a single
-// group, however small $h$ is. Its one function is 0 on the four sides, so it is 0. **By
-// [chapter 07](../07_kernel/07_kernel.cpp) P1 locks there.**
+// one triangle of Σ. This is the aligned mesh of space. $v$ is then determined by its
+// values at the inner vertices of Σ, and these are free: there are $(n - 1)^2$ functions
+// without strain, $n = 1/h$. In the plane there were $n - 1$. Each of gmsh's meshes of this
+// chapter has a single group (counted). Its one function is 0 on the four sides, so it is
+// 0. **By [chapter 07](../07_kernel/07_kernel.cpp) P1 locks there.** The jittered mesh has
+// three groups. Two of them are the columns in two corners of the square. Their vertices
+// all lie on the sides of the layer, so that they have not moved, and are clamped. The
+// third group is the rest of the layer. So again only 0 is left.
 //
 // Theorem 5 of the paper holds in space for the structured mesh, with its proof: the
 // interpolant of a smooth $v(x, y)$ has the value of $v$ at each vertex of a vertical line,
-// so it does not depend on $z$ either. Hence $K_{0h}$ approaches $K_0$, and by Theorem 4 the
-// convergence is uniform in ε (proved).
+// so it does not depend on $z$ either. Hence $K_{0h}$ approaches $K_0$, and by Theorem 4
+// the convergence is uniform in ε (proved).
 //
 // ## Crouzeix-Raviart: one function per tetrahedron
 //
-// The unknowns are the means over faces. Let the layer have $N_T$ tetrahedra, $F_Σ$ faces on
-// Σ, $F_C$ on $Γ_C$ and $F_D$ on its clamped sides. A tetrahedron has four faces, and an
+// The unknowns are the means over faces. Let the layer have $N_T$ tetrahedra, $F_Σ$ faces
+// on Σ, $F_C$ on $Γ_C$ and $F_D$ on its clamped sides. A tetrahedron has four faces, and an
 // inner face belongs to two tetrahedra. So the unknowns that are not clamped are
 //
 // $$ ½ (4 N_T - F_Σ - F_C - F_D) + F_Σ + F_C = 2 N_T + ½ (F_Σ + F_C - F_D). $$
 //
-// There is one condition per tetrahedron, $∂_z v = 0$. No condition follows from the others,
-// by the proof of chapter 07: take any slopes $g$, one per tetrahedron, and the function
-// $∫_{-1}^z g$. Give its mean to each face that is not vertical. By Green's formula
-// $|T|\, ∂_z v$ is the sum of these means, each times the area of the face and the $z$
-// component of its normal. So the slope on each $T$ is $g_T$. What is left are
+// There is one condition per tetrahedron, $∂_z v = 0$. No condition follows from the
+// others, by the proof of chapter 07: take any slopes $g$, one per tetrahedron, and the
+// function $∫_{-1}^z g$. Give its mean to each face that is not vertical. By Green's
+// formula $|T|\, ∂_z v$ is the sum of these means, each times the area of the face and the
+// $z$ component of its normal. So the slope on each $T$ is $g_T$. There remain
 //
 // $$ N_T + ½ (F_Σ + F_C - F_D) $$
 //
-// functions without strain on *any* mesh (proved). The interpolant by means, $I_h w$, of any
-// $w(x, y)$ is one of them, for $∂_z I_h w$ is the mean of $∂_z w = 0$.
+// functions without strain on *any* mesh (proved). The interpolant by means, $I_h w$, of
+// any $w(x, y)$ is one of them, for $∂_z I_h w$ is the mean of $∂_z w = 0$.
 //
-// **It does not lock.** Lemma 2 and Theorem 4 ask for four things, and dimension two was not
-// used in any of them. (i) Jumps have the mean 0 on each face, so that weak limits lie in
-// $V$. (ii) The form is coercive in the broken norm, with a constant that does not depend on
-// $h$; in space this is a theorem of Brenner. (iii) Means of $v ≥ 0$ over faces of $Γ_C$ are
-// not negative, so that $I_h$ maps $K$ into $K_h$, and $K_0$ into $K_{0h}$. (iv) Smooth
-// functions are dense in $K_0$. For this let $v_Σ$ be $v$ on Σ, and $χ(z)$ smooth with
-// $χ(0) = 1$, $χ(1) = 0$. The function $v_Σ(x, y) χ(z)$ has a bounded norm, $v - v_Σ χ$ is in
-// $H_0^1$ of the body, and $v_Σ ≥ 0$ is a limit of smooth functions that are at least 0. So
-// the convergence is uniform in ε on any shape-regular family (proved). Its order is
-// observed below.
+// **It does not lock.** Lemma 2 and Theorem 4 ask for four things, and dimension two was
+// not used in any of them. (i) Jumps have the mean 0 on each face, so that weak limits lie
+// in $V$. (ii) The form is coercive in the broken norm, with a constant that does not
+// depend on $h$; in space this is a theorem of Brenner. (iii) Means of $v ≥ 0$ over faces
+// of $Γ_C$ are not negative, so that $I_h$ maps $K$ into $K_h$, and $K_0$ into $K_{0h}$.
+// (iv) Smooth functions are dense in $K_0$. For this let $v_Σ$ be $v$ on Σ, and $χ(z)$
+// smooth with $χ(0) = 1$, $χ(1) = 0$. The function $v_Σ(x, y) χ(z)$ has a bounded norm,
+// $v - v_Σ χ$ is in $H_0^1$ of the body, and $v_Σ ≥ 0$ is a limit of smooth functions that
+// are at least 0 and vanish near the boundary of Σ. So the convergence is uniform in ε on
+// any shape-regular family (proved). Its order is observed below.
 //
 // ## How much is lost: a matrix per tetrahedron
 //
@@ -130,28 +134,31 @@
 //
 // The ridge of this load without an obstacle is $\sin ax \sin by$ with $a = 2π$, $b = π$.
 // Put $c^2 = a^2 + b^2$. The mean of $(∂_z I_h w)^2$ over the waves is
-// $\frac{1}{16} ((a^2 Q_{11} + b^2 Q_{22})^2 + (2 ab\, Q_{12})^2)$. Where the mesh prefers no
-// direction, its mean over the layer is $¼ k^2 c^4$ with **the bending length $k$ of a mesh
-// in space**,
+// $\frac{1}{16} ((a^2 Q_{11} + b^2 Q_{22})^2 + (2 ab\, Q_{12})^2)$. Where the mesh prefers
+// no direction, its mean over the layer is $¼ k^2 c^4$ with **the bending length $k$ of a
+// mesh in space**,
 //
 // $$ k^2 = ¼ \text{ mean of } (e·Q_T e)^2 \text{ over the layer and all directions } e
 //    = ¼ \text{ mean of } \tfrac{1}{8} (\mathrm{tr}\, Q_T)^2 + ¼ |Q_T|^2. $$
 //
-// Now the argument of chapter 06 applies word by word. Let $u_D$ be the body with Σ clamped,
-// and $d = u^0 - u_D$: the ridge on the layer, and $\sinh c (1 - z)/\sinh c$ times it in the
-// body. With the height 1 of the ridge $a_1(d, d) = E = ¼ (c \coth c + c^2)$, the first term
-// from the body and the second from the layer. A layer that gives way releases the energy
-// $½ E A_0 A_ε$, $A_ε$ the height of the ridge on Σ. (At ε = 0 this is ½ E A_0^2, as in
-// chapter 06.) P1 keeps of it at least
+// Now the argument of chapter 06 applies word by word. Let $u_D$ be the body with Σ
+// clamped, and $d = u^0 - u_D$: the ridge on the layer, and $\sinh c (1 - z)/\sinh c$ times
+// it in the body. With the height 1 of the ridge $a_1(d, d) = E = ¼ (c \coth c + c^2)$, the
+// first term from the body and the second from the layer. A layer that gives way releases
+// the energy $½ E A_0 A_ε$, $A_ε$ the height of the ridge on Σ. (At ε = 0 this is
+// $½ E A_0^2$, as in chapter 06.) P1 releases of it at least the share that follows, up to
+// what interpolation costs in the body and along the layer. This is the share that P1
+// *keeps*:
 //
 // $$ \frac{1}{1 + x},   x = \frac{‖∂_z I_h d‖^2}{ε^2 E} ≈ \frac{c^4}{c \coth c + c^2}\,
 //    \frac{k^2}{ε^2} = (6.57\, k/ε)^2. $$
 //
-// What is exact for each mesh is a projection. For *every* $v$ in $V_h$ the energy that $u_h$
-// releases is at least $r(v)^2 / (2 a^ε(v, v))$, where $r(v) = L(v) - a(u_{D,h}, v)$ and
-// $u_{D,h}$ is the discrete body with the layer at rest: minimise $J(u_{D,h} + s v)$ over the
-// number $s$. The program does so with the interpolant of $d$ (proved, on each mesh). For
-// Crouzeix-Raviart the interpolant by means has no strain, so there is no $x$ at all.
+// A projection gives a bound without this restriction. For *every* $v$ in $V_h$ the energy
+// that $u_h$ releases is at least $r(v)^2 / (2 a^ε(v, v))$, where
+// $r(v) = L(v) - a(u_{D,h}, v)$ and $u_{D,h}$ is the discrete body with the layer at rest:
+// minimise $J(u_{D,h} + s v)$ over the number $s$. The program does so with the interpolant
+// of $d$ (proved, on each mesh). For Crouzeix-Raviart the interpolant by means has no
+// strain, so there is no $x$ at all.
 //
 // ## Where P1 stops
 //
@@ -230,6 +237,12 @@ class ExactWithoutObstacle {
 };
 const std::vector<double> epsilons{1, 1e-1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
 
+// The energy that a layer releases: $½ E A_0 A_ε$.
+double released_by(const ExactWithoutObstacle& exact) {
+  static const double rigid_ridge = ExactWithoutObstacle(0).ridge();
+  return stiffness_of_ridge * rigid_ridge * exact.ridge() / 2;
+}
+
 // $d$ with the height 1.
 double ridge_and_body(double x, double y, double z) {
   const double above = z > 0 ? std::sinh(c * (1 - z)) / std::sinh(c) : 1;
@@ -275,8 +288,7 @@ Table solve_free(const Element& element, const std::string& family, int cells,
     const double epsilon = exact.epsilon();
     sweep.set_epsilon(epsilon);
     const Solution solution = sweep.solve();
-    const double rigid_ridge = exact_solutions.back().ridge();  // its epsilon is 1e-8
-    const double all = stiffness_of_ridge * rigid_ridge * exact.ridge() / 2;
+    const double all = released_by(exact);
     rows.add({element.name() + " " + family, element.name(), family, cells, 1.0 / cells,
               space.free_count(), epsilon, exact.relative_error(space, solution),
               released.of(sweep.problem(), solution) / all,
@@ -329,8 +341,8 @@ void judge_meshes(const Table& meshes, tutorial::Report& report) {
                "Crouzeix-Raviart: N_T + (F_Sigma + F_C - F_D)/2 functions without strain "
                "on each mesh (proved)");
   report.claim(meshes.numbers("P1") == meshes.numbers("P1 predicted"),
-               "P1: (n - 1)^2 functions without strain on cut cubes, none on gmsh's mesh "
-               "(proved), none on the jittered mesh (observed)");
+               "P1: (n - 1)^2 functions without strain on cut cubes, none on the two other "
+               "families (proved from their groups)");
   bool same = true;
   for (const std::string& family : families) {
     const Mesh mesh = family_mesh(family, 4);
@@ -429,7 +441,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   std::vector<int> cells;
   for (const int n : {4, 5, 6, 8, 12, 16})
     if (n <= options.cells) cells.push_back(n);
-  report.stage("functions without strain");
+  report.stage("kernels");
   const Table meshes = describe_meshes();
   std::vector<ExactWithoutObstacle> exact;
   for (const double epsilon : epsilons) exact.emplace_back(epsilon);
@@ -447,7 +459,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   const double floor =
       std::sqrt(stiffness_of_ridge) * exact.back().ridge() / exact.back().norm();
   const Table finest = all.filter("cells", cells.back());
-  meshes.print("functions without strain in the layer");
+  meshes.print("kernels on the layer, groups and bending lengths");
   largest.pivot("cells", "method", "largest")
       .print("contact, epsilon = 1e-6: largest u on Gamma_C", 3);
   finest.pivot("epsilon", "method", "kept")
@@ -472,39 +484,40 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 }
 // ## What came out
 //
-// :output: functions without strain
+// :output: kernels on the layer
 //
-// (a) On the jittered and on the unstructured mesh. P1 has no function without strain there,
-// and on the structured mesh $(n - 1)^2$ of them. On the jittered mesh there are three
-// groups: two small ones lie in corners of the layer, where edges of the sides have stayed
-// vertical. They add nothing (counted by rank).
+// (a) On the jittered and on the unstructured mesh. P1 has no function without strain
+// there, and on the structured mesh $(n - 1)^2$ of them. The ranks of $B$ agree with what
+// was derived.
 //
 // (b) About one: 352 for the 384 tetrahedra of the coarsest structured mesh.
-// :number: 352 = table "functions without strain" CR mesh=structured cells=4
-// :number: 384 = table "functions without strain" N_T mesh=structured cells=4
+// :number: 352 = table "kernels on the layer" CR mesh=structured cells=4
+// :number: 384 = table "kernels on the layer" N_T mesh=structured cells=4
 //
 // :figure: three_dimensions_contact
 //
 // :output: contact, epsilon
 //
-// With the obstacle P1 on cut cubes has 0.0834 as largest $u$ on $Γ_C$, and Crouzeix-Raviart
-// 0.0776 on gmsh's mesh at the same $h = 1/8$. What P1 has there, 7.5e-12, is round-off of
-// the problem: by the law below it is a multiple of $ε^2$.
+// With the obstacle P1 on cut cubes has 0.0834 as largest $u$ on $Γ_C$, and
+// Crouzeix-Raviart 0.0776 on gmsh's mesh at the same $h = 1/8$. P1 has 7.5e-12 there, a
+// small multiple of $ε^2$.
 // :number: 0.0834 = table "contact, epsilon" "P1 structured" cells=8
 // :number: 0.0776 = table "contact, epsilon" "CR unstructured" cells=8
 // :number: 7.5e-12 = table "contact, epsilon" "P1 unstructured" cells=8
 //
 // :figure: three_dimensions_kept
 //
+// :live: space
+//
 // :output: P1: kept
 //
 // **The law.** At ε = 0.03 P1 keeps 0.26 of the energy on the jittered mesh and 0.0869 on
 // gmsh's. The interpolant of the exact ridge alone keeps 0.2 and 0.0496 (proved). The share
-// that is lost, over the share that is kept, is 0.27 to 0.70 times $x$ where $x > 1$: the law
-// has the right order, and its constant is too large by a factor of 1.4 to 4 on these coarse
-// meshes, because $u_h$ finds better functions than the interpolant. A share above 1 is no
-// error of the program. A coarse mesh is too stiff with the layer at rest as well, and the
-// difference of both energies may be too large.
+// that is lost, over the share that is kept, is 0.27 to 0.70 times $x$ where $x > 1$: the
+// law has the right order, and its constant is too large by a factor of 1.4 to 4 on these
+// coarse meshes, because $u_h$ finds better functions than the interpolant. A share above 1
+// is no error of the program. A coarse mesh is too stiff with the layer at rest as well,
+// and the difference of both energies may be too large.
 // :number: 0.26 = table "P1: kept" kept mesh=jittered epsilon=0.03
 // :number: 0.0869 = table "P1: kept" kept mesh=unstructured epsilon=0.03
 // :number: 0.2 = table "P1: kept" bound mesh=jittered epsilon=0.03
@@ -516,9 +529,9 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // $h = 1/6$. So the wall, the ε at which half is kept, is to be expected at about
 // $6.57 k = 1.1 h$ on gmsh's mesh. In the plane it was at $0.68 h$ on a Delaunay mesh: *in
 // space a layer locks earlier*. A mesh of 128 cells per side, which the plane allows, has
-// some ten million tetrahedra in space.
-// :number: 0.0653 = table "functions without strain" "k/h" mesh=jittered cells=6
-// :number: 0.171 = table "functions without strain" "k/h" mesh=unstructured cells=6
+// some twenty million tetrahedra in space.
+// :number: 0.0653 = table "kernels on the layer" "k/h" mesh=jittered cells=6
+// :number: 0.171 = table "kernels on the layer" "k/h" mesh=unstructured cells=6
 //
 // :output: relative error
 //
@@ -532,27 +545,28 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // ## Exercises
 //
 // 1. Write `family_mesh` for a fourth family: gmsh's tetrahedra in the body, and below each
-//    face of Σ a prism cut into tetrahedra, `layered_mesh(8, 1, tetrahedra)`. How many groups
-//    has its layer, and how much does P1 keep at ε = 1e-2?
+//    face of Σ a prism cut into tetrahedra, `layered_mesh(8, 1, tetrahedra)`. How many
+//    groups has its layer, and how much does P1 keep at ε = 1e-2?
 // 2. Move the inner vertices of the structured mesh up and down only. How many functions
 //    without strain are left of $(n - 1)^2$, and does P1 lock?
 // 3. P2 on gmsh's mesh. In the plane one parabola without strain is left in the layer
 //    (chapter 07). How many functions are left in space, and from which degree on is there
 //    one?
-// 4. On paper: move each inner vertex half as far, by up to $0.1 h$. What becomes of $k$, and
-//    at which ε is half of the energy kept now?
+// 4. On paper: move each inner vertex half as far, by up to $0.1 h$. What becomes of $k$,
+//    and at which ε is half of the energy kept now?
 //
 // ## Further reading
 //
-// - S. C. Brenner, *Poincaré-Friedrichs inequalities for piecewise $H^1$ functions*, SIAM J.
-//   Numer. Anal. 41 (2003), 306-324,
+// - S. C. Brenner, *Poincaré-Friedrichs inequalities for piecewise $H^1$ functions*, SIAM
+//   J. Numer. Anal. 41 (2003), 306-324,
 //   [doi:10.1137/S0036142902401311](https://doi.org/10.1137/S0036142902401311).
 // - M. Crouzeix, P.-A. Raviart, *Conforming and nonconforming finite element methods for
 //   solving the stationary Stokes equations*, RAIRO 7 (1973), 33-75,
-//   [doi:10.1051/m2an/197307R300331](https://doi.org/10.1051/m2an/197307R300331). The element
-//   in the plane and in space.
-// - H. W. Kuhn, *Some combinatorial lemmas in topology*, IBM J. Res. Dev. 4 (1960), 518-524,
-//   [doi:10.1147/rd.45.0518](https://doi.org/10.1147/rd.45.0518). The cut of a cube into six.
+//   [doi:10.1051/m2an/197307R300331](https://doi.org/10.1051/m2an/197307R300331). The
+//   element in the plane and in space.
+// - H. W. Kuhn, *Some combinatorial lemmas in topology*, IBM J. Res. Dev. 4 (1960),
+//   518-524, [doi:10.1147/rd.45.0518](https://doi.org/10.1147/rd.45.0518). The cut of a
+//   cube into six.
 
 #include "answers.hpp"
 

@@ -20,8 +20,8 @@
 
 namespace antilock::tutorial {
 
-/// The slopes q_i = d/dz lambda_i of the four hat functions of a tetrahedron, and its matrix
-/// Q = sum_i q_i p_i p_i^T, p_i the corners seen from above.
+/// The slopes q_i = d/dz lambda_i of the four hat functions of a tetrahedron, and its
+/// matrix Q = sum_i q_i p_i p_i^T, p_i the corners seen from above.
 struct Bending {
   Eigen::Vector4d slopes;
   Eigen::Matrix2d matrix;  ///< a length
