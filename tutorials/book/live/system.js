@@ -255,15 +255,19 @@ async function unpacked(text) {
   return new Uint8Array(await new Response(zipped.stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer());
 }
 
-/// A mesh as the library keeps it from what wasm/pack made of it: its coordinates byte by byte, its triangles as differences.
-function mesh(bytes) {
-  const view = new DataView(bytes.buffer), [vertices, triangles] = [0, 8].map((at) => view.getUint32(at, true)), begin = 16, end = begin + 16 * vertices;
-  const planes = bytes.slice(begin, end), step = 2 * vertices;
+/// A mesh as the library keeps it from what wasm/pack made of it: its coordinates byte by byte, its cells as differences.
+function mesh(name, bytes) {
+  const d = name.startsWith("tetrahedra") ? 3 : 2, corners = d + 1;
+  const view = new DataView(bytes.buffer), [vertices, cells] = [0, 8].map((at) => view.getUint32(at, true));
+  const begin = 16, end = begin + 8 * d * vertices, planes = bytes.slice(begin, end), step = d * vertices;
   for (let i = 0; i < step; ++i) for (let k = 0; k < 8; ++k) bytes[begin + 8 * i + k] = planes[k * step + i];
-  for (let t = 0, first = 0; t < triangles; ++t) {
-    const at = end + 12 * t, way = (k) => view.getInt32(at + 4 * k, true), a = first += way(0), b = a + way(1), c = b + way(2);
-    [a, b, c].forEach((v, k) => view.setInt32(at + 4 * k, v, true));
-  }
+  for (let t = 0, first = 0; t < cells; ++t)
+    for (let k = 0, v = first; k < corners; ++k) {
+      const at = end + 4 * (corners * t + k);
+      v += view.getInt32(at, true);
+      if (k === 0) first = v;
+      view.setInt32(at, v, true);
+    }
   return bytes;
 }
 
@@ -274,7 +278,8 @@ async function putMeshes(files, text) {
   for (let at = 0; at < bytes.length;) {
     const name = at + 8, begin = name + view.getUint32(at, true), end = begin + view.getUint32(at + 4, true);
     if (end > bytes.length) throw new Error("the page's meshes are damaged");
-    files.write(`${where}/${new TextDecoder().decode(bytes.subarray(name, begin))}`, mesh(bytes.slice(begin, end)));
+    const mesh_name = new TextDecoder().decode(bytes.subarray(name, begin));
+    files.write(`${where}/${mesh_name}`, mesh(mesh_name, bytes.slice(begin, end)));
     at = end;
   }
 }

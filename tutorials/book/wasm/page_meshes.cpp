@@ -14,13 +14,17 @@
 int main() try {
   for (std::string line; std::getline(std::cin, line);) {
     int mesher = 0;
-    double depth = 0, h = 0;
-    if (std::sscanf(line.c_str(), "unstructured%d_%la_%la", &mesher, &depth, &h) != 3) {
+    antilock::Domain domain;
+    double h = 0;
+    if (std::sscanf(line.c_str(), "tetrahedra_%la_%la", &domain.layer_depth, &h) == 2) {
+      domain.kind = antilock::CellKind::tetrahedron;
+      mesher = static_cast<int>(antilock::Mesher::frontal);
+    } else if (std::sscanf(line.c_str(), "unstructured%d_%la_%la", &mesher,
+                           &domain.layer_depth, &h) != 3) {
       fmt::print(stderr, "page_meshes: \"{}\" names no mesh\n", line);
       return 2;
     }
-    antilock::unstructured_mesh(static_cast<int>(std::lround(1 / h)),
-                                {.layer_depth = depth},
+    antilock::unstructured_mesh(static_cast<int>(std::lround(1 / h)), domain,
                                 static_cast<antilock::Mesher>(mesher));
   }
   return 0;
