@@ -62,4 +62,4 @@ const std::vector<tutorial::Exercise> exercises{
 //
 // **4.** A vertex moves by $t$ times a fixed vector. To first order in $t$ the $p_i$ change
 // by a multiple of $t$, and $Q_T$, which is 0 at $t = 0$, is a multiple of $t$. So $k$ is
-// halved, and $x$ falls to a quarter. Half of the energy is kept at half of the ε.
+// halved, and ρ falls to a quarter. Half of the energy is kept at half of the ε.

@@ -1,6 +1,7 @@
 #pragma once
 // Meshes, forms of the mesh, and pictures of 39_three_dimensions.
 #include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -111,6 +112,29 @@ inline VariationalInequality with_layer_at_rest(VariationalInequality problem,
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   problem.bounds = {};
   return problem;
+}
+
+/// The size of a Cholesky factor L: its entries, and the multiplications that compute it,
+/// the sum of the squares of the numbers of entries in its columns.
+struct FactorSize {
+  double unknowns = 0, entries = 0, multiplications = 0;
+};
+/// Factors A1 + B' M B on the free unknowns in the order of Eigen's AMD, a minimum degree
+/// ordering.
+inline FactorSize factor_size(const VariationalInequality& problem) {
+  const SparseMatrix free = free_prolongation(problem);
+  const SparseMatrix b = SparseMatrix(problem.b) * free;
+  const SparseMatrix k = SparseMatrix(free.transpose() * problem.a1 * free) +
+                         SparseMatrix(b.transpose() * problem.m.asDiagonal() * b);
+  const Eigen::SimplicialLLT<SparseMatrix> cholesky(k);
+  const auto& factor = cholesky.matrixL().nestedExpression();
+  FactorSize size{static_cast<double>(k.rows())};
+  for (Eigen::Index j = 0; j < factor.cols(); ++j) {
+    const double column = factor.outerIndexPtr()[j + 1] - factor.outerIndexPtr()[j];
+    size.entries += column;
+    size.multiplications += column * column;
+  }
+  return size;
 }
 
 /// Returns the values of u at the four corners of a cell, seen from inside of it.
