@@ -845,7 +845,7 @@ class LiveFigure(Book):
             return [float(number) for number in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", self.run_script(said, kind))]
 
         # at a telephone's width they stand as wide as it is; what they answer is the same
-        for kind in ("string", "move", "kernel", "penalty", "nitsche", "beam", "friction", "accuracy", "models", "bound", "degree", "network", "solvers", "orders", "rubber"):
+        for kind in ("string", "move", "kernel", "penalty", "nitsche", "beam", "friction", "accuracy", "models", "bound", "degree", "network", "solvers", "orders", "space", "rubber"):
             with self.subTest(kind=kind):
                 open_at(kind, 375)
         open_at("string")
@@ -915,6 +915,9 @@ class LiveFigure(Book):
         self.assertLess(4 * seven, min(affine, parabolas))
         affine, parabolas, seven = values("orders", 0)
         self.assertTrue(4 * parabolas < affine and abs(seven / parabolas - 1) < 0.3, (affine, parabolas, seven))
+        open_at("space")
+        affine, on_faces = values("space", -2)  # gmsh's tetrahedra, 1/h = 6
+        self.assertTrue(affine < 0.02 and abs(on_faces - 1) < 0.1, (affine, on_faces))
         open_at("rubber")
         parallel, arbitrary, _, cr, ks = values("rubber", -8)
         self.assertTrue(min(parallel, arbitrary) > 2 * cr and abs(ks / cr - 1) < 0.1, (parallel, arbitrary, cr, ks))

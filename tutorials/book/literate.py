@@ -400,7 +400,7 @@ class Page:
 STILLS = {"locking": "hero", "string": "string", "convergence": "figure9", "roundoff": "roundoff", "move": "ties", "kernel": "kernel",
           "models": "three_models", "degree": "degree", "bound": "effectivity", "accuracy": "asked_meshes", "beam": "beam",
           "penalty": "interior_penalty_kept", "network": "neural_network", "nitsche": "nitsche",
-          "orders": "order_two", "solvers": "solver_shapes", "rubber": "elasticity_force", "friction": "friction"}
+          "orders": "order_two", "space": "three_dimensions_kept", "solvers": "solver_shapes", "rubber": "elasticity_force", "friction": "friction"}
 # What a figure may be told: what its inputs offer.
 SETTINGS = {"locking": {"mesh": "structured|unstructured|moved|layered", "cells": "8|16|24|32", "moved": r"0\.\d+",
                         "epsilon": r"0|-[1-8](?:\.\d+)?"}}

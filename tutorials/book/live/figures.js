@@ -279,6 +279,15 @@ antilock.figures.orders = (box) => antilock.pointwise(box, {
   ask: antilock.column("38_order_two", "energy"),
 });
 
+antilock.figures.space = (box) => antilock.pointwise(box, {
+  title: "How much of the energy P1 and Crouzeix–Raviart keep on tetrahedra: every ε leaves its points", label: "the kept share by element",
+  min: -4, step: 0.25, stride: 0.5, asleep: true,
+  choices: { mesh: ["unstructured", "jittered", "structured"], cells: [6, 4] }, keys: ["P1", "Crouzeix–Raviart"],
+  axes: { title: "Share of the energy that is kept", x: { log: true, range: [8e-5, 1.3], ticks: [1e-4, 1e-3, 1e-2, 1e-1, 1], name: "ε" },
+    y: { range: [0, 1.3], ticks: [0, 0.5, 1], name: "kept" } },
+  ask: antilock.column("39_three_dimensions", "kept"),
+});
+
 antilock.figures.rubber = (box) => antilock.pointwise(box, {
   title: "The contact force as rubber loses its compressibility: every ε = 1/λ leaves its points", label: "contact force by element",
   min: -8, step: 0.25, stride: 1, zero: 1e-8, asleep: true, choices: { cells: [8, 16, 32] },
