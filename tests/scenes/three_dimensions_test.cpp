@@ -23,7 +23,7 @@ const std::string f = "10*sin(2*pi*x)*sin(pi*y)*(1 + z)";
 double load(double x, double y, double z) {
   return 10 * std::sin(2 * std::numbers::pi * x) * std::sin(std::numbers::pi * y) * (1 + z);
 }
-double gap(double x, double y) { return 0.01 * (x + 2 * y); }
+double gap(double x, double y) { return 0.001 * (x + 2 * y); }
 
 std::string scene(const std::string& effects, const std::string& mesh, const std::string& element,
                   const std::string& formula = f) {
@@ -43,18 +43,20 @@ TEST(ThreeDimensions, AnswerAsTheLibraryDoes) {
   const std::map<std::string, Mesh> meshes{{"structured", structured_mesh(3, {1, kind})},
                                            {"unstructured", unstructured_mesh(3, {1, kind})},
                                            {"layered", layered_mesh(3, 0.05, kind)}};
+  std::ptrdiff_t active = 0;
   for (const auto& [name, mesh] : meshes)
     for (const std::string used : {"P1", "CR"}) {
-      const std::string effects = layer_and_contact + "gap = \"0.01*(x + 2*y)\"\n";
+      const std::string effects = layer_and_contact + "gap = \"0.001*(x + 2*y)\"\n";
       const Result found = answer(scene(effects, made(name, 3), used));
       const Space space(mesh, element(used, kind));
       ASSERT_TRUE(have_one_mesh(found.space, space)) << name;
       const Solution expected = active_set(assemble(direct, space));
-      EXPECT_GT(std::count(expected.active.begin(), expected.active.end(), true), 0);
+      active += std::count(expected.active.begin(), expected.active.end(), true);
       // both are solved to 1e-10
       EXPECT_LT(relative_difference(found.solution.u, expected.u), 1e-9) << name << " " << used;
       EXPECT_EQ(found.solution.active, expected.active);
     }
+  EXPECT_GT(active, 0);
 }
 
 TEST(ThreeDimensions, HaveTheTrueLayerAndTheBodyAlone) {
@@ -265,6 +267,18 @@ TEST(ThreeDimensions, WarnOfDataThatTheMeshMisses) {
   }
 }
 
+// u_h of Crouzeix-Raviart may sink into a smooth obstacle beside the centroids of the faces, where it
+// is bounded. This is its error, and not an obstacle that the mesh misses.
+TEST(ThreeDimensions, DoNotWarnOfASmoothObstacle) {
+  const std::string slope = "[contact]\ngap = \"0.001 + 0.05*x + 0.02*y\"\n";
+  for (const std::string name : {"structured", "unstructured"})
+    for (const std::string used : {"P1", "CR"}) {
+      const Result found = answer(scene(slope, made(name, 4), used, "10*sin(2*pi*x)"));
+      EXPECT_GT(std::count(found.solution.active.begin(), found.solution.active.end(), true), 0);
+      EXPECT_EQ(found.warning, "") << name << " " << used;
+    }
+}
+
 TEST(ThreeDimensions, WarnOfDisplacementsThatJump) {
   const TemporaryFolder folder;
   Mesh mesh = structured_mesh(2, {0, kind});
@@ -419,12 +433,12 @@ TEST(ThreeDimensions, AreUnknownToTheOtherPrograms) {
   for (const std::string option : {"--direct", "--restart"}) {
     const TemporaryFolder log;
     const Outcome outcome =
-        run_scene(in_shell(path) + " " + option + " --out " + in_shell(log / "out"), log);
+        run_scene(in_shell(path) + " " + option + " --out " + in_shell(log / "results"), log);
     EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_FALSE(std::filesystem::exists(log / "out"));
+    EXPECT_FALSE(std::filesystem::exists(log / "results"));
   }
   const TemporaryFolder log;
-  EXPECT_EQ(run_scene(in_shell(path) + " --out " + in_shell(log / "out"), log).status, 0);
+  EXPECT_EQ(run_scene(in_shell(path) + " --out " + in_shell(log / "results"), log).status, 0);
 }
 
 }  // namespace antilock::test::three_dimensions_test

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -407,36 +408,63 @@ std::vector<ContactFace> contact_faces(const Mesh& mesh) {
   return faces;
 }
 
-/// V values on Gamma_C: the prescribed one, or the mean of u_h from the faces at the vertex.
-Eigen::VectorXd vertex_means(const Space& space, const Eigen::VectorXd& u,
-                             const Eigen::VectorXd& held) {
-  const Mesh& mesh = space.mesh();
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh.vertex_count()), count = sum;
-  for (const auto& [t, i] : contact_faces(mesh))
-    for (const int k : mesh.reference().facet[i]) {
-      const int v = mesh.triangles(t, k);
-      sum(v) +=
-          space.element().basis(reference_vertex(mesh.kind, k)).dot(u(space.cell_dofs().row(t)));
-      ++count(v);
-    }
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    if (!std::isnan(held(v)))
-      sum(v) = held(v);
-    else if (count(v) > 0)
-      sum(v) /= count(v);
+/// The affine function that fits values around a point best, by the normal equations.
+class AffineFit {
+ public:
+  /// Adds a value at an offset from the point. The unit of lengths is the first offset.
+  void add(const Eigen::Vector2d& offset, double value) {
+    if (unit_ == 0) unit_ = offset.norm();
+    const Eigen::Vector3d row(1, offset(0) / unit_, offset(1) / unit_);
+    matrix_ += row * row.transpose();
+    right_ += value * row;
   }
-  return sum;
+  /// Returns its value at the point itself; not a number where fewer than three values, or values
+  /// on one line, leave it open.
+  double value() const {
+    const Eigen::FullPivLU<Eigen::Matrix3d> factor(matrix_);
+    return factor.isInvertible() ? factor.solve(right_)(0) : NAN;
+  }
+
+ private:
+  double unit_ = 0;
+  Eigen::Matrix3d matrix_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
+};
+
+/// V values on Gamma_C: the prescribed one, or that of u_h. Crouzeix-Raviart's u_h has many values
+/// there, and only those at centroids of faces are bounded. So the affine function that fits these
+/// best around the vertex gives the value, or NaN.
+Eigen::VectorXd vertex_values(const Space& space, const Eigen::VectorXd& u,
+                              const Eigen::VectorXd& held) {
+  const Mesh& mesh = space.mesh();
+  Eigen::VectorXd values = held;
+  std::map<int, AffineFit> fits;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    const Eigen::RowVector2d centre =
+        mesh.vertices(mesh.edges.row(e), Eigen::indexing::all).colwise().mean().head<2>();
+    for (const int v : mesh.edges.row(e)) {
+      if (!std::isnan(held(v))) continue;
+      if (space.element().dofs_per_vertex() > 0) {
+        values(v) = u(v);  // the first unknowns are those of vertices
+        continue;
+      }
+      const Eigen::RowVector2d offset = centre - mesh.vertices.row(v).head<2>();
+      fits[v].add(offset.transpose(), u(e));  // the unknowns are those of faces
+    }
+  }
+  for (const auto& [v, fit] : fits) values(v) = fit.value();
+  return values;
 }
 
 /// Visits points of the faces of Gamma_C. There u is the function that has the value of u_h at the
-/// centroid of each face and the means of u_h at the vertices, and is affine on the three triangles
-/// between them. For P1 it is u_h. Crouzeix-Raviart's u_h jumps at the edges, by no more than its
-/// error, and the bounds hold at the centroids alone.
+/// centroid of each face, the vertex_values, and is affine on the three triangles between them. For
+/// P1 it is u_h.
 void visit_faces(const Space& space, const Eigen::VectorXd& u, const Eigen::VectorXd& held,
                  DeepestPoint& deepest) {
   const Mesh& mesh = space.mesh();
   const std::vector<ContactFace> faces = contact_faces(mesh);
-  const Eigen::VectorXd at_vertex = vertex_means(space, u, held);
+  const Eigen::VectorXd at_vertex = vertex_values(space, u, held);
   // each of the three triangles of a face has parts (parts + 1) / 2 points
   const double per_triangle = contact_places / (3.0 * std::max<std::size_t>(faces.size(), 1));
   const int parts = std::clamp(static_cast<int>(std::sqrt(2 * per_triangle)), 4, 64);
@@ -447,6 +475,7 @@ void visit_faces(const Space& space, const Eigen::VectorXd& u, const Eigen::Vect
     const std::array<int, 3>& corners = mesh.reference().facet[i];
     for (int k = 0; k < 3; ++k) {
       const int v = mesh.triangles(t, corners[k]), w = mesh.triangles(t, corners[(k + 1) % 3]);
+      if (std::isnan(at_vertex(v)) || std::isnan(at_vertex(w))) continue;
       for (int a = 0; a < parts; ++a)
         for (int b = 0; a + b < parts; ++b) {
           const double to_v = (a + 1.0 / 3) / parts, to_w = (b + 1.0 / 3) / parts;
