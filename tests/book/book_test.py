@@ -571,6 +571,8 @@ class Accessible(Book):
 
     def test_the_keyboard_skips_the_contents_and_sees_where_it_is(self):
         self.show("08_crouzeix_raviart")
+        links = "return document.querySelectorAll('[href=\"#furo-main-content\"]').length"
+        self.assertEqual(self.run_script(links), 1)  # the theme of Debian 13 has one of its own
         self.browser.find_element("css selector", "body").send_keys(Keys.TAB)
         at = """
           const at = document.activeElement, style = getComputedStyle(at);
