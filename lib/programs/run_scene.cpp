@@ -56,7 +56,7 @@ Written to the results folder: summary.json; solution.csv (x,y,u; in space x,y,z
 with friction a column of that name: the tangential force per length), where
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it; parts of the body that [body] names are one group there);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:
-build/bin/render surface DIR/solution.vtu --out picture.png (of a mesh from a file: render plan, in plane strain: render deformed)
+build/bin/render surface DIR/solution.vtu --out picture.png (of a mesh from a file: render plan, in plane strain: render deformed, in space: render cut)
 In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file or of the last mesh of an accuracy, the layer of depth 1 included; seconds are wall seconds, which add up to total;
 blas is the library of dense linear algebra, its kernels and threads (where OpenBLAS does not know the CPU and falls
 back to old kernels, the program starts again with wider ones, and with memory in large pages where Linux gives them to
@@ -180,9 +180,10 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   fmt::print("{}", force_table(file, summary, certified));
   if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
   const std::string name = (asked.out / "solution").string();
-  const char* const kind = std::visit(
+  const char* const in_plane = std::visit(
       [&](const auto& model) { return model.picture(file.mesh.from_file()); }, file.model);
-  if (asked.files.contains("vtu") && file.mesh.dimension == 2)
+  const char* const kind = file.mesh.dimension == 3 ? "cut" : in_plane;
+  if (asked.files.contains("vtu"))
     fmt::print("  a picture of it: {} {} {} --out {}\n",
                tutorial::in_shell(tutorial::sibling_path("render")), kind,
                tutorial::in_shell(name + ".vtu"), tutorial::in_shell(name + ".png"));
