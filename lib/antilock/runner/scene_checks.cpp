@@ -302,7 +302,7 @@ void check_contact_on_mesh(const SceneFile& file, const Mesh& mesh) {
     for (const Position& x : facet_lattice(mesh, e, parts)) {
       largest = std::max(largest, std::abs(profile_value(gap, x)));
       try {
-        check_ceiling(contact, x(0), x(1), mesh.dimension());
+        check_upper_obstacle_at(contact, x(0), x(1), mesh.dimension());
       } catch (const ObstacleError& error) {
         throw InputError(file.name + ": contact.ceiling: " + error.what());
       }
@@ -490,7 +490,7 @@ void visit_faces(const Space& space, const Eigen::VectorXd& u, const Eigen::Vect
 
 }  // namespace
 
-void check_ceiling(const UnilateralContact& contact, double x, double y, int dimension) {
+void check_upper_obstacle_at(const UnilateralContact& contact, double x, double y, int dimension) {
   if (dimension == 2) return check_upper_obstacle(contact, x);
   if (!contact.upper_obstacle) return;
   UnilateralContact on_line;  // on the line of this y

@@ -804,7 +804,7 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
     try {
       Scene made(body, layer, contact, edges);
       const auto ceiling_above_gap = [&](double x, double y) {
-        check_ceiling(*contact, x, y, dimension);
+        check_upper_obstacle_at(*contact, x, y, dimension);
         return 0.0;
       };
       if (contact && unit_square) sample_profile(ceiling_above_gap, dimension);
