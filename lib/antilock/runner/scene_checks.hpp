@@ -8,10 +8,6 @@
 
 namespace antilock {
 
-/// Throws ObstacleError where the ceiling is below the obstacle at x, in space at (x, y)
-/// (check_upper_obstacle, scene/scene.hpp).
-void check_upper_obstacle_at(const UnilateralContact& contact, double x, double y, int dimension);
-
 /// Evaluates the load at the vertices and edge midpoints of a body from a file, and the bounds gap
 /// and ceiling along Gamma_C, the contact boundary, or along the slave side of two bodies. Throws
 /// Error, `FILE: KEY: ...`, where one of them has no finite value, where the ceiling is below the

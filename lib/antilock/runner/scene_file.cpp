@@ -16,7 +16,7 @@
 #include "antilock/core/plain_text.hpp"
 #include "antilock/measure/point_values.hpp"
 #include "antilock/runner/expression.hpp"
-#include "antilock/runner/scene_checks.hpp"
+#include "antilock/runner/obstacle_check.hpp"
 #include "antilock/runner/scene_keys.hpp"
 #include "antilock/runner/toml_depth.hpp"
 
