@@ -188,8 +188,8 @@ void judge(const Table& beta, const Table& forces, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// 1. Hold the rubber's sides too. What becomes of β while the groove fills up, and of the
-//    solution at ε = 0 after that?
+// 1. Hold the rubber's sides too. What becomes of β while the groove of the obstacle fills
+//    up, and of the solution at $1/λ = 0$ after that?
 //
 // ## Further reading
 //
@@ -231,11 +231,13 @@ void judge(const Table& beta, const Table& forces, tutorial::Report& report) {
 //
 // on it, with any $q_h$. (For CR the jumps of $v_h$ add a term of the same order, because
 // their means over edges are 0.) With the $q_h$ nearest to ψ this is at most
-// $C h ‖∇ψ‖ |v_h|$, and in general it is not 0. So $u_h$ moves by at most the order of $h$,
-// and it moves by as much at every large λ, because λ does not occur in this work. Its
-// ratio to the exact motion grows like λ. This is not the locking of Theorem 4: the
-// absolute error tends to 0 uniformly. A method without this growth is *gradient-robust*
-// (Linke 2014 for fluids; Fu, Lehrenfeld, Linke and Streckenbach 2021 for elasticity).
+// $C h ‖∇ψ‖ |v_h|$, and in general it is not 0. At $1/λ = 0$ put $v_h = u_h$. By Korn's
+// inequality $|u_h|^2 ≤ C a_1(u_h, u_h) = C (∇ψ, u_h)$. So $u_h$ moves by at most the
+// order of $h$. As $λ → ∞$ the discrete solutions tend to this motion, which in general is
+// not 0. So their ratio to the exact motion grows like λ. This is not the locking of
+// Theorem 4: the absolute error tends to 0 uniformly. A method without this growth is
+// *gradient-robust* (Linke 2014 for fluids; Fu, Lehrenfeld, Linke and Streckenbach 2021
+// for elasticity).
 //
 // ## Another load
 //

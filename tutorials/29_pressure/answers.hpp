@@ -6,7 +6,7 @@
 const std::vector<tutorial::Exercise> exercises{
     {"Hold the sides of the rubber block too. What becomes of beta while the groove of the "
      "obstacle fills up, and what "
-     "of the solution at epsilon = 0 after that?",
+     "of the solution at 1/lambda = 0 after that?",
      "beta falls, for MINI from 0.18 to 0.07 at 99 % of the groove. Once all of the bottom "
      "is held it is 0 for each "
      "method, because no displacement sees the constant pressure. A block that is pushed "

@@ -25,30 +25,33 @@
 // **Predict.** The cube is cut into small cubes, and each small cube into six tetrahedra.
 // This mesh is called *structured*. In the *jittered* mesh each vertex inside of the body
 // or of the layer has moved by up to $0.2 h$ in $x$, $y$ and $z$. The *unstructured* mesh
-// is gmsh's. (a) On which of the three does P1 lock, that is, on which does its layer not
-// move at ε = 1e-6? (b) A function without strain is one whose derivative across the layer
-// is 0 on each tetrahedron. The Crouzeix-Raviart element has one unknown per face here. How
-// many functions without strain does it have for each tetrahedron of the layer: about a
-// quarter, a half, or one?
+// is gmsh's, that of the picture. (a) P1 locks in the picture: its layer does not move.
+// Does it lock on the structured and on the jittered mesh, too? (b) A function without
+// strain is one whose derivative across the layer is 0 on each tetrahedron. The
+// Crouzeix-Raviart element has one unknown per face here. How many functions without
+// strain does it have for each tetrahedron of the layer: about a quarter, a half, or one?
 //
 // ## The problem in space
 //
-// The body is the unit cube, and below it lies a layer $(0,1)^2 × (-ε, 0)$ of the stiffness
-// $1/ε$. Sides and top are clamped. The bottom $Γ_C$ may touch an obstacle at the height 0.
-// As in [chapter 01](../01_domain/01_domain.cpp) the layer is stretched to the depth 1 by
-// $z → z/ε$. Each derivative in $z$ then brings $1/ε$, and the volume brings ε:
+// The body is the unit cube, and below it lies a layer $(0,1)^2 × (-ε, 0)$ of the
+// stiffness $1/ε$. The square Σ between them is at $z = 0$. Sides and top are clamped. The
+// bottom $Γ_C$ may touch an obstacle at the height 0. As in [chapter
+// 01](../01_domain/01_domain.cpp) the layer is stretched to the depth 1 by $z → z/ε$. Each
+// derivative in $z$ then brings $1/ε$, and the volume brings ε:
 //
-// $$ \frac{1}{ε} ∫_{z > -ε} |∇v|^2 = ∫_{z > -1} (∂_x v)^2 + (∂_y v)^2
+// $$ \frac{1}{ε} ∫_{-ε<z<0} |∇v|^2 = ∫_{-1<z<0} (∂_x v)^2 + (∂_y v)^2
 //   + ε^{-2} (∂_z v)^2. $$
 //
-// So the stiff form is $a_0(u, v) = ∫ ∂_z u\, ∂_z v$ over the layer: *the derivative across
-// the layer is stiff, as in the plane*. The two derivatives along it are not. Problem (23)
-// keeps its form, with $a_x^-$ replaced by the two terms along the layer. At ε = 0 the
-// layer is a membrane: $u$ depends on $x$ and $y$ alone there.
+// So the stiff form is $a_0(u, v) = ∫ ∂_z u\, ∂_z v$ over the layer: *the derivative
+// across the layer is stiff, as in the plane*. The two derivatives along it are not. They
+// and the body make up $a_1$, and the energy of $v$ is $½ a^ε(v, v) - L(v)$ with $a^ε =
+// a_1 + ε^{-2} a_0$. Problem (23) keeps its form, with $a_x^-$ replaced by the two terms
+// along the layer. At ε = 0 the layer is a membrane: $u$ depends on $x$ and $y$ alone
+// there.
 //
 // The load is $f = 40 (1 - z)^3 \sin 2πx \sin πy$. It pulls up where $x < ½$ and presses
-// down elsewhere. It is larger near the layer, so that the layer takes a good part of the
-// energy.
+// down elsewhere. It is larger near the layer, so that the layer takes a visible part of
+// the energy.
 //
 // ## Which tetrahedra are tied?
 //
@@ -63,20 +66,22 @@
 //   this segment, and the slope across it may change.
 //
 // The tetrahedra that are connected by faces that are not vertical form a *group*, and each
-// group has one function $α + β x + γ y$. In the structured mesh a group is what lies below
-// one triangle of Σ. This is the aligned mesh of space. $v$ is then determined by its
-// values at the inner vertices of Σ, and these are free: there are $(n - 1)^2$ functions
-// without strain, $n = 1/h$. In the plane there were $n - 1$. Each of gmsh's meshes of this
-// chapter has a single group (counted). Its one function is 0 on the four sides, so it is
-// 0. **By [chapter 07](../07_kernel/07_kernel.cpp) P1 locks there.** The jittered mesh has
-// three groups. Two of them are the columns in two corners of the square. Their vertices
-// all lie on the sides of the layer, so that they have not moved, and are clamped. The
-// third group is the rest of the layer. So again only 0 is left.
+// group has one function $α + β x + γ y$. In the structured mesh a group is what lies
+// below one triangle of Σ. This is the aligned mesh of space. $v$ is then determined by
+// its values at the inner vertices of Σ, and these are free: there are $(n - 1)^2$
+// functions without strain, $n = 1/h$. In the plane there were $n - 1$. Each of gmsh's
+// meshes of this chapter has a single group (counted at $h = 1/4$ and $1/6$). Its one
+// function is 0 on the four sides, so it is 0. **By [chapter
+// 07](../07_kernel/07_kernel.cpp) P1 locks there.** The jittered mesh has three groups.
+// Two of them are the columns in two corners of the square. Their vertices all lie on the
+// sides of the layer, so that they have not moved, and are clamped. The third group is the
+// rest of the layer. So again only 0 is left.
 //
-// Theorem 5 of the paper holds in space for the structured mesh, with its proof: the
-// interpolant of a smooth $v(x, y)$ has the value of $v$ at each vertex of a vertical line,
-// so it does not depend on $z$ either. Hence $K_{0h}$ approaches $K_0$, and by Theorem 4
-// the convergence is uniform in ε (proved).
+// Theorem 5 of the paper holds in space for the structured mesh, with its proof, if (iv)
+// and (v) below stand for Lemma 1 and its counterpart in $K$. The interpolant of a smooth
+// $v(x, y)$ has the value of $v$ at each vertex of a vertical line, so it does not depend
+// on $z$ either. Hence $K_{0h}$ approaches $K_0$, and by Theorem 4 the convergence is
+// uniform in ε (proved).
 //
 // ## Crouzeix-Raviart: one function per tetrahedron
 //
@@ -94,19 +99,24 @@
 //
 // $$ N_T + ½ (F_Σ + F_C - F_D) $$
 //
-// functions without strain on *any* mesh (proved). The interpolant by means, $I_h w$, of
-// any $w(x, y)$ is one of them, for $∂_z I_h w$ is the mean of $∂_z w = 0$.
+// functions without strain on *any* mesh (proved). The interpolant by means, $I_h^{nc} w$,
+// of any $w(x, y)$ is one of them, for $∂_z I_h^{nc} w$ is the mean of $∂_z w = 0$.
 //
-// **It does not lock.** Lemma 2 and Theorem 4 ask for four things, and dimension two was
-// not used in any of them. (i) Jumps have the mean 0 on each face, so that weak limits lie
-// in $V$. (ii) The form is coercive in the broken norm, with a constant that does not
+// **It does not lock.** Lemma 2 and Theorem 4 ask for five things, and each holds in
+// space. (i) Jumps, and values on clamped faces, have the mean 0, so that weak limits lie
+// in $V$. Their means over faces of $Γ_C$ are not negative, so neither are the limits
+// there. (ii) The form is coercive in the broken norm, with a constant that does not
 // depend on $h$; in space this is a theorem of Brenner. (iii) Means of $v ≥ 0$ over faces
-// of $Γ_C$ are not negative, so that $I_h$ maps $K$ into $K_h$, and $K_0$ into $K_{0h}$.
-// (iv) Smooth functions are dense in $K_0$. For this let $v_Σ$ be $v$ on Σ, and $χ(z)$
-// smooth with $χ(0) = 1$, $χ(1) = 0$. The function $v_Σ(x, y) χ(z)$ has a bounded norm,
-// $v - v_Σ χ$ is in $H_0^1$ of the body, and $v_Σ ≥ 0$ is a limit of smooth functions that
-// are at least 0 and vanish near the boundary of Σ. So the convergence is uniform in ε on
-// any shape-regular family (proved). Its order is observed below.
+// of $Γ_C$ are not negative, so that $I_h^{nc}$ maps $K$ into $K_h$, and $K_0$ into
+// $K_{0h}$. (iv) Smooth functions are dense in $K_0$. For this let $v_Σ$ be $v$ on Σ, and
+// $χ(z)$ smooth with $χ(0) = 1$, $χ(1) = 0$. The function $v_Σ(x, y) χ(z)$ has a bounded
+// norm, $v - v_Σ χ$ is in $H_0^1$ of the body, and $v_Σ ≥ 0$ is a limit of smooth
+// functions that are at least 0 and vanish near the boundary of Σ. (v) Smooth functions
+// are dense in $K$. The negative part of $v ∈ K$ is in $H_0^1$. The positive part,
+// reflected at $Γ_C$, is in $H_0^1$ of the doubled domain, and a limit there of smooth
+// functions that are at least 0. So the convergence is uniform in ε on any shape-regular
+// family, in which the diameter of a tetrahedron over that of its inscribed ball is
+// bounded (proved). Its order is observed below.
 //
 // ## How much is lost: a matrix per tetrahedron
 //
@@ -133,38 +143,39 @@
 // tetrahedra with an edge in a side of the layer still have one.
 //
 // The ridge of this load without an obstacle is $\sin ax \sin by$ with $a = 2π$, $b = π$.
-// Put $c^2 = a^2 + b^2$. The mean of $(∂_z I_h w)^2$ over the waves is
-// $\frac{1}{16} ((a^2 Q_{11} + b^2 Q_{22})^2 + (2 ab\, Q_{12})^2)$. Where the mesh prefers
-// no direction, its mean over the layer is $¼ k^2 c^4$ with **the bending length $k$ of a
-// mesh in space**,
+// Put $c^2 = a^2 + b^2$. The mean of $(∂_z I_h w)^2$ over all places of $T$ under the
+// waves is $\frac{1}{16} ((a^2 Q_{11} + b^2 Q_{22})^2 + (2 ab\, Q_{12})^2)$. Where the
+// mesh prefers no direction, its mean over the layer is $¼ k^2 c^4$ with **the bending
+// length $k$ of a mesh in space**,
 //
 // $$ k^2 = ¼ \text{ mean of } (e·Q_T e)^2 \text{ over the layer and all directions } e
-//    = ¼ \text{ mean of } \tfrac{1}{8} (\mathrm{tr}\, Q_T)^2 + ¼ |Q_T|^2. $$
+//    = ¼ \text{ mean of } \tfrac{1}{8} (\mathrm{tr}\, Q_T)^2 + ¼ |Q_T|^2, $$
 //
-// Now the argument of chapter 06 applies. Let $u_D$ be the body with Σ
-// clamped, and $d = u^0 - u_D$: the ridge on the layer, and $\sinh c (1 - z)/\sinh c$ times
-// it in the body. With the height 1 of the ridge $a_1(d, d) = E = ¼ (c \coth c + c^2)$, the
-// first term from the body and the second from the layer. A layer that gives way releases
-// the energy $½ E A_0 A_ε$, $A_ε$ the height of the ridge on Σ. (At ε = 0 this is
-// $½ E A_0^2$, as in chapter 06.) P1 releases of it at least the share that follows, up to
-// what interpolation costs in the body and along the layer. This is the share that P1
-// *keeps*:
+// where $|Q_T|^2$ is the sum of the squared entries. Now the argument of chapter 06
+// applies. Let $u_D$ be the solution with Σ clamped. Then $u^0 - u_D = A_0 d$: $d$ is the
+// ridge of height 1 on the layer, and $\sinh c (1 - z)/\sinh c$ times it in the body.
+// $a_1(d, d) = E = ¼ (c \coth c + c^2)$, the first term from the body and the second from
+// the layer. In the body $u^ε - u_D = A_ε d$ with the height $A_ε$ of the ridge on Σ, and
+// $L(d) = a_1(u^0, d) = E A_0$, since $a_1(u_D, d) = 0$. So a layer that gives way
+// releases the energy $½ L(u^ε - u_D) = ½ E A_0 A_ε$. P1 releases of $½ E A_0^2$ at least
+// the share that follows, up to what interpolation costs in the body and along the layer.
+// The factor $A_0/A_ε$ tends to 1 as ε → 0. This is the share that P1 *keeps*:
 //
 // $$ \frac{1}{1 + ρ},   ρ = \frac{‖∂_z I_h d‖^2}{ε^2 E} ≈ \frac{c^4}{c \coth c + c^2}\,
 //    \frac{k^2}{ε^2} = (6.57\, k/ε)^2. $$
 //
-// A projection gives a bound without this restriction. For *every* $v$ in $V_h$ the energy
-// that $u_h$ releases is at least $r(v)^2 / (2 a^ε(v, v))$, where
-// $r(v) = L(v) - a(u_{D,h}, v)$ and $u_{D,h}$ is the discrete body with the layer at rest:
-// minimise $J(u_{D,h} + s v)$ over the number $s$. The program does so with the interpolant
-// of $d$ (proved, on each mesh). For Crouzeix-Raviart the interpolant by means has no
-// strain, so there is no ρ at all.
+// A projection gives a bound without this restriction. Without an obstacle, and for
+// *every* $v$ in $V_h$, the energy that $u_h$ releases is at least $r(v)^2 / (2 a^ε(v,
+// v))$, where $r(v) = L(v) - a^ε(u_{D,h}, v)$ and $u_{D,h}$ is the discrete body with the
+// layer at rest. To see this, minimise the energy of $u_{D,h} + s v$ over the number $s$.
+// The program does so with the interpolant of $d$ (proved, on each mesh). For
+// Crouzeix-Raviart the interpolant by means has no strain, so there is no ρ at all.
 //
 // ## Where P1 stops
 //
-// Let P1 have no function without strain. Then $u_h → 0$ on the layer as ε → 0. Among all
-// functions that are 0 there, $u_D$ is the one nearest to $u^0$. So at ε = 0, on each such
-// mesh and for each $h$ (proved),
+// Let P1 have no function without strain. Then $u_h → 0$ on the layer as ε → 0. Without an
+// obstacle $u_D$ is, among all functions that are 0 there, the one nearest to $u^0$. So at
+// ε = 0, on each such mesh and for each $h$ (proved),
 //
 // $$ |u^0 - u_h|_a ≥ |u^0 - u_D|_a = \sqrt{E} A_0. $$
 
@@ -410,8 +421,8 @@ void judge_errors(const Table& all, double floor, tutorial::Report& report) {
     const Table rigid = all.filter("method", method).filter("epsilon", 1e-8);
     report.claim(
         rigid.min("error") >= floor,
-        "{}: the error at epsilon = 1e-8 is at least {:.3f} on each mesh, and {:.3f} "
-        "on the finest (proved)",
+        "{}: the error at epsilon = 1e-8 is at least {:.3f} on each mesh (the bound is "
+        "proved at epsilon = 0), and {:.3f} on the finest (observed)",
         method, floor, rigid.last("error"));
   }
   const Table of_cr =
@@ -512,9 +523,9 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :output: kernels on the layer
 //
-// (a) On the jittered and on the unstructured mesh. P1 has no function without strain
-// there, and on the structured mesh $(n - 1)^2$ of them. The ranks of $B$ agree with what
-// was derived.
+// (a) On the jittered mesh, and not on the structured one. P1 has $(n - 1)^2$ functions
+// without strain on the structured mesh, and none on the two others. The ranks of $B$
+// agree with what was derived.
 //
 // (b) About one: 352 for the 384 tetrahedra of the coarsest structured mesh.
 // :number: 352 = table "kernels on the layer" CR mesh=structured cells=4
@@ -573,16 +584,16 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :output: the Cholesky factor
 //
-// **What accuracy costs.** The error falls like $h$, as in the plane. But $N$ unknowns have
-// $h$ like $N^{-1/3}$ in space and like $N^{-1/2}$ in the plane. The factor is the second
-// loss. A line of $1/h$ unknowns divides a square in two, and it takes a plane of $1/h^2$
-// unknowns to divide a cube. These unknowns are eliminated last, as a full matrix. So
-// nested dissection (George) has $N \log N$ entries in the plane and $N^{4/3}$ in space,
-// and $N^{3/2}$ and $N^2$ multiplications. In the table, with some 4,800 unknowns, an
-// unknown in space has 40.6 entries in the factor, 12.8 in the plane, and there are 14
-// times as many multiplications. Half of the error then takes 8 times as many unknowns and
-// 64 times as many multiplications. In the plane it takes 4 times as many and 8 times as
-// many.
+// **What accuracy costs.** The error falls like $h$, as in the plane. But $N$ unknowns
+// have $h$ like $N^{-1/3}$ in space and like $N^{-1/2}$ in the plane. The Cholesky factor
+// is the second cost. A line of $1/h$ unknowns divides a square in two, and it takes a
+// plane of $1/h^2$ unknowns to divide a cube. These unknowns are eliminated last, as a
+// full matrix. So nested dissection (George) has $N \log N$ entries in the plane and
+// $N^{4/3}$ in space, and $N^{3/2}$ and $N^2$ multiplications. In the table, with some
+// 4,800 unknowns, an unknown in space has 40.6 entries in the factor, 12.8 in the plane,
+// and there are 14 times as many multiplications. Half of the error then takes 8 times as
+// many unknowns and 64 times as many multiplications. In the plane it takes 4 times as
+// many and 8 times as many.
 // :number: 40.6 = table "the Cholesky factor" "entries per unknown" dimension=3 1/h=6
 // :number: 12.8 = table "the Cholesky factor" "entries per unknown" dimension=2 1/h=28
 // :number: 14 = line "as many unknowns, {} times as many"
