@@ -194,7 +194,12 @@ TEST(ThreeDimensions, WriteAPictureThatIsTheAnswer) {
 TEST(ThreeDimensions, SayWhetherTheLayerLocks) {
   const std::string effects = "[layer]\nepsilon = 1e-6\n[contact]\n";
   const Result locked = answer(scene(effects, made("unstructured", 4), "P1"));
-  EXPECT_NE(locked.warning.find("P1 may lock in this layer"), std::string::npos) << locked.warning;
+  EXPECT_NE(locked.warning.find("P1 locks in this layer: it loses about 99 %"), std::string::npos)
+      << locked.warning;
+  // nothing locks at epsilon = 1
+  EXPECT_EQ(
+      answer(scene("[layer]\nepsilon = 1\n[contact]\n", made("unstructured", 4), "P1")).warning,
+      "");
   for (const std::string name : {"structured", "layered"})
     EXPECT_EQ(answer(scene(effects, made(name, 4), "P1")).warning, "");
   const SceneRun run(scene(effects, made("unstructured", 3), "CR"));

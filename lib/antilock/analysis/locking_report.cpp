@@ -7,10 +7,39 @@
 #include <cmath>
 
 #include "antilock/analysis/layer_components.hpp"
+#include "antilock/analysis/locking_beside_cr.hpp"
 #include "antilock/analysis/locking_loss.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
 
 namespace antilock {
+namespace {
+
+/// The report on tetrahedra: beside Crouzeix-Raviart, whose unknowns are the faces. Its three solves
+/// take 1.6 s on gmsh's mesh with 1/h = 16 (84,000 faces; that of the 4,866 unknowns of P1 takes
+/// 1.3 s with the mesh). On more than 100,000 faces the report has no number.
+LockingReport loss_in_space(const Scene& scene, const Result& result,
+                            const std::string& diagnosis) {
+  constexpr int most_faces = 100'000;
+  const Space& space = result.space;
+  if (space.mesh().edge_count() <= most_faces) {
+    const auto assemble_on = [&](const Space& on) { return assemble(scene, on); };
+    const auto solver = [](const VariationalInequality& problem) { return active_set(problem); };
+    return locking_beside_cr(result, assemble_on, solver, diagnosis);
+  }
+  LockingReport report{diagnosis};
+  report.diagnosis +=
+      fmt::format("; what it costs is not computed on more than {} faces", most_faces);
+  report.warning =
+      space.element().name() +
+      " locks in this layer where epsilon is small against the mesh width, since its tetrahedra "
+      "are tied to each other; remedy: element = \"CR\", or a layer in columns (kind = "
+      "\"layered\")";
+  return report;
+}
+
+}  // namespace
 
 std::optional<LockingReport> report_locking(const Scene& scene, const Result& result) {
   const Element& element = result.space.element();
@@ -25,9 +54,10 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
     return LockingReport{"nothing is known of locking on quadrilaterals"};
   const bool in_space = mesh.dimension() == 3;
   if (!element.conforming() && in_space)
-    return LockingReport{element.name() +
-                         ": about one motion without strain per layer tetrahedron, on any mesh; "
-                         "that it does not lock is measured, not proved"};
+    return LockingReport{
+        element.name() +
+        " does not lock: about one motion without strain per layer tetrahedron, on any "
+        "mesh (Theorem 7; its proof holds in space)"};
   if (!element.conforming())
     return LockingReport{
         element.name() +
@@ -44,14 +74,7 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Result& re
       in_space ? "faces" : "edges", mesh.reference().plural, components.count,
       components.count == 1 ? "" : "s", in_space ? "faces" : "edges", element.name(),
       element.degree(), in_space ? "x and y" : "x");
-  if (in_space) {
-    report.diagnosis += "; nothing is known of what it costs on tetrahedra";
-    report.warning =
-        element.name() +
-        " may lock in this layer, since its tetrahedra are tied to each other; remedy: "
-        "CR, or a layer in columns (layered_mesh)";
-    return report;
-  }
+  if (in_space) return loss_in_space(scene, result, report.diagnosis);
   LockingLoss energy;
   try {
     energy = locking_loss(scene, result);

@@ -211,7 +211,7 @@ TEST(Tetrahedra, HaveAReportOnLockingThatWarnsOfTiedCells) {
   for (const Mesh& mesh : tied_meshes()) {
     const LockingReport found = report(mesh, p);
     EXPECT_NE(found.diagnosis.find("faces that are not vertical"), std::string::npos);
-    EXPECT_NE(found.warning.find("P1 may lock"), std::string::npos) << found.warning;
+    EXPECT_NE(found.warning.find("P1 locks in this layer"), std::string::npos) << found.warning;
     EXPECT_FALSE(found.lost);
     EXPECT_EQ(report(mesh, cr).warning, "");
   }
