@@ -52,7 +52,7 @@ and read and write files: gmsh gets the commands of it that draw. A script with 
 the mesh alone (Mesh, Physical, Field, ...) are left out. A .brep holds data, which OpenCASCADE reads. A .geo or .brep
 that lies beside the mesh file and is not named is not read: refinements and accuracy warn of it.
 
-Written to the results folder: summary.json; solution.csv (x,y,u; in space x,y,z,u; in plane strain x,y,u_x,u_y; with element = \"BDM1-hybrid\" x,y,u,mean: the unknowns are means, u is a value); contact.csv (x,gap,pressure, in space x,y,gap,pressure; with contact only,
+Written to the results folder: summary.json; solution.csv (x,y,u; in space x,y,z,u; in plane strain x,y,u_x,u_y; with element = "BDM1-hybrid" x,y,u,mean: the unknowns are means, u is a value); contact.csv (x,gap,pressure, in space x,y,gap,pressure; with contact only,
 with friction a column of that name: the tangential force per length), where
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it; parts of the body that [body] names are one group there);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:

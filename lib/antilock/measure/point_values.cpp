@@ -31,7 +31,7 @@ struct Search {
   PointValues::Location found{-1, {}};
 
   /// The rounding of the coordinates, which far from the origin is more than `outside`.
-  double ulp() const { return std::numeric_limits<double>::epsilon() * x.template lpNorm<1>(); }
+  double ulp() const { return (std::numeric_limits<double>::epsilon() * x.cwiseAbs()).sum(); }
 
   bool intersectVolume(const Box& box) const {
     return box.exteriorDistance(x) <= beyond * box.diagonal().norm() + ulp() * 4;

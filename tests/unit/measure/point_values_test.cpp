@@ -74,6 +74,9 @@ TEST(PointValues, FindNothingOutsideTheMesh) {
     outside(0) = 0.5;
     outside(mesh.vertical()) = -1.001;
     EXPECT_FALSE(values.locate(outside));
+    // the sum of such coordinates is infinite
+    outside.head(mesh.dimension()).setConstant(1.7e308);
+    EXPECT_FALSE(values.locate(outside));
   }
 }
 
