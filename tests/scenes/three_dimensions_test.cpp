@@ -382,7 +382,8 @@ TEST(ThreeDimensions, LeaveThePlaneAsItIs) {
   }
 }
 
-// Of a mesh file: its parts lie where the scene needs them.
+// The parts of a mesh file must lie where the scene needs them, because (22) and (23) are posed on
+// a body above a layer of known depth.
 TEST(ThreeDimensions, RefuseAFileThatDoesNotFit) {
   const TemporaryFolder folder;
   const auto refused = [&](Mesh mesh, const std::string& effects, const std::string& says) {

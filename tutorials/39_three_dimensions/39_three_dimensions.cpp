@@ -36,9 +36,8 @@
 // The body is the unit cube, and below it lies a layer $(0,1)^2 × (-ε, 0)$ of the
 // stiffness $1/ε$. The square Σ between them is at $z = 0$. Sides and top are clamped. The
 // bottom $Γ_C$ may touch an obstacle at the height 0. As in
-// [chapter 01](../01_domain/01_domain.cpp)
-// the layer is stretched to the depth 1 by $z → z/ε$. Each
-// derivative in $z$ then brings $1/ε$, and the volume brings ε:
+// [chapter 01](../01_domain/01_domain.cpp) the layer is stretched to the depth 1 by
+// $z → z/ε$. Each derivative in $z$ then brings $1/ε$, and the volume brings ε:
 //
 // $$ \frac{1}{ε} ∫_{-ε<z<0} |∇v|^2 = ∫_{-1<z<0} (∂_x v)^2 + (∂_y v)^2
 //   + ε^{-2} (∂_z v)^2. $$
@@ -73,11 +72,10 @@
 // functions without strain, $n = 1/h$. In the plane there were $n - 1$. Each of gmsh's
 // meshes of this chapter has a single group (counted at $h = 1/4$ and $1/6$). Its one
 // function is 0 on the four sides, so it is 0. **By
-// [chapter 07](../07_kernel/07_kernel.cpp)
-// P1 locks there.** The jittered mesh has three groups.
-// Two of them are the columns in two corners of the square. Their vertices all lie on the
-// sides of the layer, so that they have not moved, and are clamped. The third group is the
-// rest of the layer. So again only 0 is left.
+// [chapter 07](../07_kernel/07_kernel.cpp) P1 locks there.** The jittered mesh has three
+// groups. Two of them are the columns in two corners of the square. Their vertices all lie
+// on the sides of the layer, so that they have not moved, and are clamped. The third group
+// is the rest of the layer. So again only 0 is left.
 //
 // Theorem 5 of the paper holds in space for the structured mesh, with its proof, if (iv)
 // and (v) below stand for Lemma 1 and its counterpart in $K$. The interpolant of a smooth

@@ -15,7 +15,8 @@ namespace antilock {
 /// discrete solution is right to the tolerance, or the result has a warning, or an exception is
 /// thrown. Its distance from the exact solution depends on the mesh, and with a stiff layer on the
 /// element. If the element locks, `Result::warning` says so. The report costs nothing if the mesh
-/// or the element excludes locking, and otherwise a small part of the time of the solve. Throws
+/// or the element excludes locking, and otherwise a small part of the time of the solve. On
+/// tetrahedra it can take as long as the solve, because Crouzeix-Raviart has more unknowns. Throws
 /// Error where every unknown is fixed. `assemble` and active_set may throw as well.
 Result solve(const Scene& scene, const Space& space, const ActiveSetOptions& options = {});
 

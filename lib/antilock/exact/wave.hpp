@@ -53,7 +53,7 @@ double decay_slope(double a, double y);
 /// Every member is finite for every 0 <= epsilon <= 1, 0 included. wave.cpp has the derivation.
 struct Symbols {
   Symbols(double a, double epsilon);
-  /// Of the wave sin(k pi x).
+  /// Makes the response for the wave sin(k pi x), a = k pi.
   Symbols(int k, double epsilon) : Symbols(k * std::numbers::pi, epsilon) {}
   double a;     ///< the number of the wave
   double body;  ///< T = a coth a: the pull of the body on Sigma is G'(0) - T w

@@ -23,18 +23,24 @@ struct RunSeconds {
 /// analysis/locking_loss.hpp).
 struct LockingReport {
   std::string diagnosis;  ///< one line: whether the element locks in the layer, and why
-  /// The share of LockingLoss::lower_bound. It is empty in three cases: nothing can lock;
-  /// locking_loss throws; or locking is not proved, which means that `estimate` is at least 5 %
+  /// The share of LockingLoss::lower_bound. It is empty in four cases: nothing can lock;
+  /// locking_loss throws; it is not called, on tetrahedra and for two bodies; or locking is not
+  /// proved, which means that `estimate` is at least 5 %
   /// (`significance`) but the share of the lower bound is below 5 %.
   std::optional<double> lost = {};
-  /// Empty if `estimate` is below 5 %. Otherwise it is one sentence that contains "locks", the
-  /// share, its origin and the remedies. The share is rounded down to whole per cent, and is at
-  /// most 99 %. The origin is "proved", or, if `lost` is empty, "by a second solve, with columns".
-  /// This solve is the one for v in locking_loss, where the layer has columns of its own.
+  /// Empty if `estimate` is below 5 %, or below a quarter where it is that of locking_beside_cr.
+  /// Otherwise it is one sentence that contains "locks", the share, its origin and the remedies. The share is
+  /// rounded down to whole per cent, and is at most 99 %. The origin is "proved", or, if `lost` is
+  /// empty, a second solve. This is the one for v in locking_loss, where the layer has columns of
+  /// its own, or that of Crouzeix-Raviart. On a large mesh of tetrahedra (report_locking) the
+  /// sentence has no share.
   std::string warning = {};
-  /// The share of LockingLoss::estimate; 0 where locking_loss was not called or throws.
+  /// The share of LockingLoss::estimate, or that of locking_beside_cr, on tetrahedra and for two
+  /// bodies; 0 where neither was called, and where it throws.
   double estimate = 0;
-  double reference = 0;  ///< LockingLoss::reference, an energy
+  /// The energy that the layer's motion releases: LockingLoss::reference, or R_CR
+  /// (analysis/locking_beside_cr.hpp).
+  double reference = 0;
 
   /// Returns one line for a program to print: the warning, or the diagnosis if there is no warning.
   const std::string& text() const { return warning.empty() ? diagnosis : warning; }

@@ -182,7 +182,8 @@ std::vector<SceneKey> mesh_keys() {
       {.section = "mesh", .name = "file", .type = Type::path, .does = "the mesh, with kind = \"file\"",
        .accepted = path_of("a MSH file, 2.2 or 4.1")},
       {.section = "mesh", .name = "dimension", .type = Type::count,
-       .does = "3: the body is the cube, its cells are tetrahedra; formulas are in x, y and z, a gap in x and y",
+       .does = "3: the body is the cube, its cells are tetrahedra; formulas are in x, y and z, "
+               "a gap in x and y",
        .otherwise = "2", .accepted = "2 or 3", .range = SceneKey::Range{2, 3},
        .line = 3, .example = "2",
        .comment = "optional: 3 is the body (0,1)^3 of tetrahedra over the layer (0,1)^2 x (-1,0); z runs\n"

@@ -8,7 +8,7 @@
 
 namespace antilock::test::mesh_test::triangle_mesh_test {
 
-/// What make_mesh is given; the default is two triangles on the unit square, contact
+/// The arguments of make_mesh. By default they are two triangles on the unit square with contact
 /// below.
 struct Input {
   Points vertices{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
