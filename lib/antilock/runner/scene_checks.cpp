@@ -26,8 +26,8 @@ namespace {
 
 /// The barycentric coordinates of point k in a simplex: a sequence of low discrepancy in the unit
 /// square or cube (Roberts 2018), folded to the simplex. No two points of a run have the same x or
-/// the same y, so that strips are found as well as spots. The fold of the cube keeps volumes: it
-/// has C. Rocchini and P. Cignoni, J. Graphics Tools 5(4), 2000.
+/// the same y, so that strips are found as well as spots. The fold of the cube keeps volumes
+/// (C. Rocchini and P. Cignoni, J. Graphics Tools 5(4), 2000).
 ReferencePoint spread_point(double k, int dimension) {
   if (dimension == 3) {
     constexpr double harmonious = 1.22074408460575947536;  // g^4 = g + 1
@@ -364,7 +364,7 @@ class DeepestPoint {
   const char* missed_ = "";
 };
 
-/// How many points of Gamma_C a warning asks, about.
+/// A warning compares u with its bounds at about this number of points of Gamma_C.
 constexpr int contact_places = 100'000;
 
 /// Visits points between the contact unknowns and the held ends of Gamma_C, where u is linear.
