@@ -181,6 +181,7 @@
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/layer_components.hpp"
+#include "antilock/analysis/locking_beside_cr.hpp"
 #include "antilock/exact/exact_solution_in_space.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "course/course.hpp"
@@ -267,7 +268,7 @@ class ReleasedEnergy {
  public:
   explicit ReleasedEnergy(const Space& space, const VariationalInequality& problem)
       : d_(dof_values(space, ridge_and_body)) {
-    const VariationalInequality at_rest = tutorial::with_layer_at_rest(problem, space);
+    const VariationalInequality at_rest = with_layer_at_rest(problem, space);
     const Solution clamped = active_set(at_rest);
     energy_at_rest_ = energy(at_rest, clamped);
     pull_ = problem.load.dot(d_) - clamped.u.dot(problem.a1 * d_);

@@ -97,23 +97,6 @@ inline LayerFaces layer_faces(const Mesh& mesh) {
   return faces;
 }
 
-/// Returns the problem with all unknowns of the layer fixed at 0, and without contact.
-inline VariationalInequality with_layer_at_rest(VariationalInequality problem,
-                                                const Space& space) {
-  std::vector<bool> fixed(space.size(), false);
-  for (const int unknown : problem.dirichlet_dofs) fixed[unknown] = true;
-  for (int t = 0; t < space.mesh().triangle_count(); ++t)
-    if (space.mesh().region[t] == Region::layer)
-      for (const int unknown : space.cell_dofs().row(t)) fixed[unknown] = true;
-  problem.dirichlet_dofs.clear();
-  for (int unknown = 0; unknown < space.size(); ++unknown)
-    if (fixed[unknown]) problem.dirichlet_dofs.push_back(unknown);
-  problem.dirichlet_values =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
-  problem.bounds = {};
-  return problem;
-}
-
 /// The size of a Cholesky factor L: its entries, and the multiplications that compute it,
 /// the sum of the squares of the numbers of entries in its columns.
 struct FactorSize {

@@ -11,10 +11,7 @@
 #include "antilock/measure/errors.hpp"
 
 namespace antilock {
-namespace {
 
-/// The problem with u = 0 in the layer. Bounds on unknowns of Gamma_C, which belong to the layer, are
-/// left out. Throws Error where u = 0 violates them.
 VariationalInequality with_layer_at_rest(VariationalInequality problem, const Space& space) {
   std::map<int, double> values;
   for (int t = 0; t < space.mesh().triangle_count(); ++t)
@@ -31,8 +28,6 @@ VariationalInequality with_layer_at_rest(VariationalInequality problem, const Sp
   set_dirichlet(problem, values);
   return problem;
 }
-
-}  // namespace
 
 LockingReport locking_beside_cr(
     const Result& result, const std::function<VariationalInequality(const Space&)>& assemble_on,

@@ -8,6 +8,11 @@
 
 namespace antilock {
 
+/// Returns the problem with u = 0 in the layer, except where other values are prescribed. Bounds on
+/// unknowns are left out, because Gamma_C, the contact boundary, belongs to the layer. Throws Error
+/// where u = 0 violates them.
+VariationalInequality with_layer_at_rest(VariationalInequality problem, const Space& space);
+
 /// Reports how much a conforming element loses beside Crouzeix-Raviart on the same mesh. For both
 /// elements the motion of the layer releases the energy R = J_0 - J, where J is the minimum and J_0
 /// the one with u = 0 in the layer. The share 1 - R_h / R_CR is lost. Each R is a difference within
