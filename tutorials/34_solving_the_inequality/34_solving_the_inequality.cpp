@@ -493,8 +493,8 @@ void judge(const Table& runs, tutorial::Report& report) {
   const Table fine =
       agreeing.filter_number("h", [](double h) { return h < 0.1; });  // from 1/16 on
   const Table rigid = fine.filter("space", "P1 structured").filter("epsilon", 0.0);
-  // On columns alone, because gmsh's meshes differ from version to version: with gmsh 4.13 P1
-  // takes 6 steps at epsilon = 0.01.
+  // On columns alone, because gmsh's meshes differ from version to version: with gmsh 4.13
+  // P1 takes 6 steps at epsilon = 0.01.
   const Table nested =
       fine.filter("space", "P1 structured").filter("solver", "active set, nested");
   const Table proximal = agreeing.filter("solver", "proximal Galerkin");
