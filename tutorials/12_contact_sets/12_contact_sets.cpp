@@ -108,6 +108,7 @@
 #include "antilock/analysis/negative_part.hpp"
 #include "antilock/exact/exact_norms.hpp"
 #include "antilock/form/h1_gram_matrix.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -137,12 +138,19 @@ Table measure(const Method& method, int cells, const Exact& u, const Exact& u0) 
   // ### Solve
   const Eigen::VectorXd u_h = active_set(problem).u;
   Table row(columns);
-  row.add({method.element->name(), method.family.name, cells, 1.0 / cells,
-           best_approximation(space, problem, u.reference(), AdmissibleSet::k_h).distance,
-           best_approximation(space, problem, u0.reference(), AdmissibleSet::k_0h).distance,
-           negative_part(space, problem, norm).constant,
-           dual_norm(problem, norm, slope_of_phi, true), below(contact_trace(space, u_h)),
-           std::sqrt(u_h.dot(norm * u_h))});
+  const auto distance = [&](const Exact& to, AdmissibleSet set) {
+    return best_approximation(space, problem, to.reference(), set).distance;
+  };
+  tutorial::add_row(row, {{"element", method.element->name()},
+                          {"mesh", method.family.name},
+                          {"cells", cells},
+                          {"h", 1.0 / cells},
+                          {"to_k", distance(u, AdmissibleSet::k_h)},
+                          {"to_k0", distance(u0, AdmissibleSet::k_0h)},
+                          {"c_h", negative_part(space, problem, norm).constant},
+                          {"k_h", dual_norm(problem, norm, slope_of_phi, true)},
+                          {"dip", below(contact_trace(space, u_h))},
+                          {"size", std::sqrt(u_h.dot(norm * u_h))}});
   return row;
 }
 

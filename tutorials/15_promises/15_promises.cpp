@@ -115,6 +115,7 @@
 // the height of $u_h$ tends to that of its lowest point. ∎
 
 #include "antilock/analysis/locking.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -147,8 +148,15 @@ Table keep(const MeshFamily& family, const TriangleMesh& mesh, int cells,
     const double kept = with_sine / sine_squared /
                         ExactSolution(paper_sine_load(), epsilon, false).max_on_contact(),
                  at_wall = kappa * k / epsilon;
-    rows.add({family.name, cells, 1.0 / cells, k, epsilon, at_wall, 1 / kept - 1, kept,
-              kept * (1 + at_wall * at_wall)});
+    tutorial::add_row(rows, {{"family", family.name},
+                             {"cells", cells},
+                             {"h", 1.0 / cells},
+                             {"k", k},
+                             {"epsilon", epsilon},
+                             {"wall / epsilon", at_wall},
+                             {"x", 1 / kept - 1},
+                             {"kept", kept},
+                             {"kept / law", kept * (1 + at_wall * at_wall)}});
   }
   return rows;
 }

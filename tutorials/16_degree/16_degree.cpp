@@ -65,6 +65,7 @@
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/layer_components.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -102,12 +103,21 @@ Table solve(const Method& method, int cells, double epsilon, const Field& load,
   // difference.
   const bool counted = cells <= 4 && method.family.name != "delaunay";
   Table row(names);
-  row.add({method.element->name(), method.element->degree(), method.family.name, cells,
-           1.0 / cells, space.free_count(), layer_components(space.mesh()).count,
-           counted ? TableEntry(layer_kernel_dimension(problem)) : TableEntry(""),
-           std::sqrt(squared), exact.errors(space, solution).h1,
-           solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact(),
-           1 / (1 + squared / (epsilon * epsilon * ridge))});
+  const double kept =
+      solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact();
+  tutorial::add_row(row,
+                    {{"element", method.element->name()},
+                     {"degree", method.element->degree()},
+                     {"mesh", method.family.name},
+                     {"cells", cells},
+                     {"h", 1.0 / cells},
+                     {"unknowns", space.free_count()},
+                     {"columns", layer_components(space.mesh()).count},
+                     {"kernel", counted ? TableEntry(layer_kernel_dimension(problem)) : ""},
+                     {"cost", std::sqrt(squared)},
+                     {"h1", exact.errors(space, solution).h1},
+                     {"kept", kept},
+                     {"law", 1 / (1 + squared / (epsilon * epsilon * ridge))}});
   return row;
 }
 
