@@ -45,17 +45,15 @@
 // interpolant of degree $p$ has a slope across the layer, $∂_y I_h w$, where $w$ has none.
 // On a triangle with a vertical edge this slope is 0 for every degree: $w$ takes equal
 // values at equal $x$, so the interpolant is a function of $x$. On all others it is of the
-// order $h^p$. Let $κ$ be its norm over the layer, the *cost* of the ridge. The argument of
-// [chapter 06](../06_p1_unstructured/06_p1_unstructured.cpp) does not ask for the degree:
-// with $E$ the energy of the ridge without this slope, the share
+// order $h^p$. Let $κ$ be its norm over the layer, the *cost* of the ridge. The law of
+// [chapter 06](../06_p1_unstructured/06_p1_unstructured.cpp#how-much-is-lost-one-number-per-triangle)
+// does not ask for the degree: with its $E$ the share
 //
 // $$ \frac{1}{1 + ρ},   ρ = \frac{κ^2}{ε^2 E},   κ = ‖∂_y I_h w‖, $$
 //
-// of the ridge is kept, and P1's $ρ = (5.84 k/ε)^2$ is the case $κ = k ‖w''‖$. On a
-// Delaunay mesh $κ ∼ h^p$. On the mesh of Frontal-Delaunay most triangles of the layer have
-// a vertical edge, and the others are left along the boundary: there $κ ∼ h^{p + 1/2}$. A
-// higher degree moves the wall, the ε at which $ρ = 1$, to smaller ε. It does not remove
-// it.
+// of the ridge is kept, and P1 is the case $κ = k ‖w''‖$. On a Delaunay mesh $κ ∼ h^p$, on
+// that of Frontal-Delaunay $κ ∼ h^{p + 1/2}$. A higher degree moves the wall, the ε at
+// which $ρ = 1$, to smaller ε. It does not remove it.
 //
 // Contact is asked at the unknowns on $Γ_C$. For $p ≥ 2$ a polynomial may dip below 0
 // between them: $V_h ⊂ V$, but $K_h ⊄ K$. And $u$ is not smooth where contact ends. Nearer
