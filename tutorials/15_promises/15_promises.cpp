@@ -58,8 +58,8 @@
 // For P1 on columns and for CR it is not: their errors do not depend on ε. For P1 on the
 // other families it is, with the constant of the law of
 // [chapter 06](../06_p1_unstructured/06_p1_unstructured.cpp#how-much-is-lost-one-number-per-triangle):
-// lost over kept is $ρ = (5.84 \, k/ε)^2$ for the ridge $\sin 2πx$, so the wall is at
-// $ε = 5.84 k$. As $k ≤ c h$ on regular meshes, it is at $ε = c h$ or to the left of it,
+// lost over kept is about $ρ = (5.84 \, k/ε)^2$ for the ridge $\sin 2πx$. By it the wall is
+// at $ε = 5.84 k$. As $k ≤ c h$ on regular meshes, it is at $ε = c h$ or to the left of it,
 // which is $h ≪ ε$ again. On the meshes of Frontal-Delaunay it is at $ε ∼ h^{3/2}$.
 //
 // The runs below have no contact, so that the ridge is $\sin 2πx$ and its exact height is
