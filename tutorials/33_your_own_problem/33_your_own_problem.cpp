@@ -331,8 +331,7 @@ void touch(const tutorial::Options& options, tutorial::Report& report) {
 // the *slave*: each of its unknowns gets a constraint. The other side is the *master*. With
 // the jump $[u] = u_{above} - u_{below}$ and the distance $g$ of the bodies,
 //
-// $$ [u]\,(x_i) ≥ -g(x_i)   \text{ (node to segment)},
-//    ∫ ψ_i [u] ≥ -∫ ψ_i g   \text{ (mortar)}. $$
+// $$ [u]\,(x_i) ≥ -g(x_i)   \text{ (node to segment)},   ∫ ψ_i [u] ≥ -∫ ψ_i g   \text{ (mortar)}. $$
 //
 // Above, the mortar had hat functions for $ψ_i$. Here they are *dual* to the hats $φ_j$ of
 // the slave: $∫ ψ_i φ_j = 0$ for $i ≠ j$, so that each constraint contains one slave unknown
