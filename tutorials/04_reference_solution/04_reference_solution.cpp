@@ -23,10 +23,11 @@
 // ## A truth without a mesh
 //
 // "Unilateral contact problems generally do not admit analytical solution" (Section 4.1).
-// So the paper solves on a very fine mesh, by Uzawa's algorithm (chapter 34 derives it, and
-// chapter 21 measures what it costs), and takes this for the truth. Ours needs no mesh. All
-// of it follows from two ordinary differential equations, and the errors of (23) in this
-// course are measured against them.
+// So the paper solves on a very fine mesh, by Uzawa's algorithm, and takes this for the
+// truth. (The algorithm guesses the contact forces and corrects them step by step. Chapter
+// 34 derives it, and chapter 21 measures what it costs.) Ours needs no mesh. All of it
+// follows from two ordinary differential equations, and the errors of (23) in this course
+// are measured against them.
 //
 // All displacements are 0 on the left and on the right side, in the body and in the layer.
 // So write them as sums of sines,
