@@ -960,11 +960,11 @@ class Run(Book):
     def test_a_run_shows_the_predictions_of_the_page(self):
         self.show("00_string_on_an_obstacle")
         self.run_script("""const [a, b] = document.querySelectorAll(".predictions input");
-          a.value = "nine"; b.value = " four times ";""")
+          a.value = "nine"; b.value = " right of it ";""")
         self.press("button[data-run]")
         self.ended()
         shown = self.run_script("return document.querySelector('.run-predicted').textContent")
-        self.assertEqual(shown, "You predicted: (a) nine; (b) four times")
+        self.assertEqual(shown, "You predicted: (a) nine; (b) right of it")
 
     def test_an_exercise_answers_in_place(self):
         self.show("08_crouzeix_raviart")
