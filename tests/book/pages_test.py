@@ -15,7 +15,7 @@ from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tutorials/book"))
-from course import minutes  # noqa: E402
+from course import minutes, read  # noqa: E402
 from library import EXAMPLES, Library  # noqa: E402
 from literate import STILLS, BookError, code, with_predictions  # noqa: E402
 from pages import EXTRA, TEACHING  # noqa: E402
@@ -485,10 +485,19 @@ int behind;""".splitlines()
             self.refused("07_middle --cells 8 has no row in wasm/runs.csv", "tutorials/07_middle/07_middle.cpp", "07_middle --cells 8", self.pages, "07_middle --cells 4")
         with self.subTest("answer"):
             self.refused("07_middle.cpp: exercise 2 has no answer", "tutorials/07_middle/answers.hpp", "**3.**", self.pages, "**2.**")
+        moved = COURSE.replace('"27_later"', '"27_later", "07_more"')
+        with self.subTest("a second page that a line places"):
+            more = self.root / "tutorials/book/course.toml"
+            more.write_text(moved)
+            parts = read(self.root / "tutorials")
+            more.write_text(COURSE)
+            self.assertEqual([part.pages for part in parts], [["00_start", "07_middle"], ["27_later", "07_more"]])
+            self.assertEqual(parts[1].second, {"07_more": "Its second page"})
         swapped = COURSE.replace("07_middle", "28_more").replace("27_later", "07_middle").replace("28_more", "27_later")
         for says, table in (
                 ("27_later stands in it 0 times; accepted: once", COURSE.replace("27_later", "28_more")),
                 ("00_start stands in it 2 times; accepted: once", COURSE.replace('"27_later"', '"27_later", "00_start"')),
+                ("07_more stands in it 2 times; accepted: once", moved.replace('"00_start"', '"00_start", "07_more"')),
                 ("there is no chapter 28_more", COURSE.replace('"27_later"', '"27_later", "28_more"')),
                 ("part More: kind path is unknown; accepted: course, track, appendix", COURSE.replace('"track"', '"path"')),
                 ("part Basics: unknown key abuot; accepted: title", COURSE.replace("about", "abuot = 1\nabout", 1)),

@@ -1,10 +1,9 @@
 #pragma once
 // The answers to the exercises of 00_string_on_an_obstacle, whose page includes this one:
-// to be read after predicting. For 3: where the string is free $λ = 0$, so only the
-// compliance of the touching nodes counts. Its largest eigenvalue is about $1/(k² h)$,
-// where $k$ is the smallest solution of $\tan(k(1 - c)) = -k c$. This is $k = 2π$, since
-// $\tan 2πc = 2πc$. Once the contact set is right, a step is safe below 2 / largest
-// eigenvalue, $2k² h = 8π² h$.
+// to be read after predicting. For 3: let the floor be the line $-d + m x$. Where contact
+// starts the string is on it, and has its slope: $U(c) = -d + m c$ and $U'(c) = m$, with
+// $U(x) = α \sin 2πx + s x$ as on the page. So $U(c) - c U'(c) = -d$. With $z = 2πc$ this
+// is $α (\sin z - z \cos z) = -d$, and it contains neither $m$ nor $s$.
 
 std::vector<tutorial::Exercise> exercises() {
   const auto solve = [](const String& s) {
@@ -33,16 +32,21 @@ std::vector<tutorial::Exercise> exercises() {
                  s.h, "start - c:");
              report.claim(low.lambda(low.lambda.size() - 1) == 0, "the last node is free");
            }},
-          {"Uzawa with rho = 4 pi^2 h, twice the safe step. Does it diverge?",
-           "no: it needs half as many. Once the contact set is right, steps up to 8 pi^2 h "
-           "are safe. From lambda = 0 they "
-           "are not: with 5 pi^2 h it swings between no contact and too much (measured)",
-           [](const tutorial::Options& options, tutorial::Report& report) {
-             const String s = hang(options.cells);
-             const int safe = uzawa_by_hand(s, 1.9 * pi * pi * s.h, 1e-10).solves;
-             const int bold = uzawa_by_hand(s, 4 * pi * pi * s.h, 1e-10).solves;
-             report.claim_within(static_cast<double>(safe) / bold, 4 / 1.9 * 0.9,
-                                 4 / 1.9 * 1.1, "steps saved, a factor");
+          {"Tilt the floor of exercise 2: -0.05 at x = 0 still, 0 at x = 1. Where does "
+           "contact start now, and does it reach x = 1?",
+           "where it starts for the flat floor of exercise 2: only the height of the line "
+           "at x = 0 counts. It reaches x = 1, where the floor ends at the height 0 of the "
+           "string",
+           [=](const tutorial::Options& options, tutorial::Report& report) {
+             String s = hang(options.cells, 10, -0.05);
+             const double flat = tutorial::contact_starts(solve(s).lambda);
+             for (int i = 0; i < s.floor.size(); ++i)
+               s.floor(i) = -0.05 * (1 - (i + 1) * s.h);
+             const Result tilted = solve(s);
+             report.claim(tutorial::contact_starts(tilted.lambda) == flat,
+                          "contact starts at the same node, {:.4f}", flat);
+             report.claim(tilted.lambda(tilted.lambda.size() - 1) > 0,
+                          "the last node touches");
            }}};
 }
 

@@ -5,8 +5,8 @@
 // Run: 04_reference_solution --exercise 1
 // Run: 04_reference_solution --exercise 2
 //
-// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) (complementarity,
-// Uzawa), [01](../01_domain/01_domain.cpp) ((21), (23)), [03](../03_by_hand/03_by_hand.cpp)
+// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) (complementarity),
+// [01](../01_domain/01_domain.cpp) ((21), (23)), [03](../03_by_hand/03_by_hand.cpp)
 // (split form, layer stress).
 //
 // **The picture.** Figure 4, a very fine mesh: a hill over the left half of the body, where
@@ -23,10 +23,11 @@
 // ## A truth without a mesh
 //
 // "Unilateral contact problems generally do not admit analytical solution" (Section 4.1).
-// So the paper solves on a very fine mesh, by Uzawa's algorithm (chapter 21 measures what
-// that costs), and takes this for the truth. Ours needs no mesh. All of it follows from two
-// ordinary differential equations, and the errors of (23) in this course are measured
-// against them.
+// So the paper solves on a very fine mesh, by Uzawa's algorithm, and takes this for the
+// truth. (The algorithm guesses the contact forces and corrects them step by step. Chapter
+// 34 derives it, and chapter 21 measures what it costs.) Ours needs no mesh. All of it
+// follows from two ordinary differential equations, and the errors of (23) in this course
+// are measured against them.
 //
 // All displacements are 0 on the left and on the right side, in the body and in the layer.
 // So write them as sums of sines,
@@ -213,7 +214,7 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   report.claim_within((from - exact.contact_from()) / h, -1, 1,
                       "start of contact - truth, in cells (observed):");
   // It stops where a step moves less than 1e-10 of u in the gap, which is its error on
-  // Gamma_C (chapter 00).
+  // Gamma_C: where the obstacle pushes, u should be 0, and Uzawa's last change is that u.
   const Result coarse = solve(scene, std::min(64, options.cells));
   const Eigen::VectorXd as_the_paper = uzawa(coarse.problem).u;
   const double apart = (as_the_paper - coarse.solution.u).cwiseAbs().maxCoeff() /

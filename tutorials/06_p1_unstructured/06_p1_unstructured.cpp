@@ -98,17 +98,19 @@
 // $u_D = 0$ and $λ u^0 = 0$, so the contact pressure $λ$ of $u^0$ added no term above.
 // Since $k ≤ c h$,
 //
-// $$ \text{P1 loses at most, up to this, the share } \frac{ρ}{1 + ρ} \text{ of the energy } E/2,
-// ρ = (c h/ε)^2, \text{ on any regular mesh.} $$
+// $$ \text{P1 loses at most the share } \frac{ρ}{1 + ρ} \text{ of the energy } E/2,   ρ = (c h/ε)^2, \text{ on any regular mesh,} $$
+//
+// and a part that tends to 0 with $h$.
 //
 // So all is well once $h ≪ ε$, as the paper says. That as much *is* lost, and that the
 // height of the ridge follows the same law within a factor of about 2, is observed on nine
 // families of meshes. On rows of congruent triangles without contact it is proved for
-// $h → 0$ (both in [chapter 15](../15_promises/15_promises.cpp)). Without contact the ridge
-// is $\sin a x$ with $a = 2π$, and $E$ has a closed form, $½ (a \coth a + a^2)$ per height
-// 1. The second part is the layer's, $∫_0^1 (a \cos a x)^2 dx$ = $½ a^2$. The first one is
-// the body's, in which $u^0 - u_D$ is $\sin a x \sinh a (1 - y) / \sinh a$: it is
-// harmonic, and 0 at the top. So
+// $h → 0$ (both in [chapter 15](../15_promises/15_promises.cpp)).
+//
+// Without contact the ridge is $\sin a x$ with $a = 2π$. If its height is 1, then
+// $E = ½ (a \coth a + a^2)$. The second part is the layer's, $∫_0^1 (a \cos a x)^2 dx$ =
+// $½ a^2$. The first one is the body's, in which $u^0 - u_D$ is
+// $\sin a x \sinh a (1 - y) / \sinh a$: it is harmonic, and 0 at the top. So
 //
 // $$ ρ = \frac{a^4}{a \coth a + a^2} \frac{k^2}{ε^2} = (5.84 \, k/ε)^2. $$
 //

@@ -61,6 +61,7 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/study/scene_sweep.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 
 using namespace antilock;
@@ -85,9 +86,20 @@ Table solve_all(const Method& method, const Space& space, int cells,
     const double seconds =
         watch.seconds();  // of the solve alone: mesh, assembly and error measurement apart
     const Errors e = exact.errors(space, solution);
-    rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells,
-              solution.counters.unknowns, e.max_at_unknowns, e.max, e.l2, e.h1, e.energy,
-              seconds, contact_zone({space, sweep.problem(), solution}).from.value_or(1)});
+    const double from = contact_zone({space, sweep.problem(), solution}).from.value_or(1);
+    tutorial::add_row(rows, {{"element", method.element->name()},
+                             {"mesh", method.family.name},
+                             {"epsilon", exact.epsilon},
+                             {"cells", cells},
+                             {"h", 1.0 / cells},
+                             {"unknowns", solution.counters.unknowns},
+                             {"max_at_unknowns", e.max_at_unknowns},
+                             {"max", e.max},
+                             {"l2", e.l2},
+                             {"h1", e.h1},
+                             {"energy", e.energy},
+                             {"seconds", seconds},
+                             {"contact_from", from}});
   }
   return rows;
 }

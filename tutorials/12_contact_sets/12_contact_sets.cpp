@@ -82,21 +82,32 @@
 // weakly to $v$. On each triangle of the layer $∂_y v_h = 0$. Is $∂_y v = 0$, too? Without
 // jumps it is. With jumps it need not be: a staircase is level on every step, and climbs
 // all the same. With smaller and smaller steps its weak limit is a slope. So the
-// derivative, triangle by triangle, tells nothing here. The values do. For a $v$ without
-// jumps, and a smooth $φ$ that is 0 on the boundary of the layer, $∫ v ∂_y φ = -∫ φ ∂_y v$
-// by parts. Hence $∂_y v = 0$ if the left side is 0 for every such $φ$. The left side is a
-// product of $v$ with something fixed, so it is the limit of the same product with $v_h$.
-// Compute that one by parts, triangle by triangle. As $∂_y v_h = 0$ inside, only the edges
-// are left,
+// derivative, triangle by triangle, tells nothing here.
+// :figure: staircase
+//
+// *The values tell.* For a $v$ without jumps, and a smooth $φ$ that is 0 on the boundary of
+// the layer, $∫ v ∂_y φ = -∫ φ ∂_y v$ by parts. Hence $∂_y v = 0$ if the left side is 0 for
+// every such $φ$. The left side is a product of $v$ with something fixed, so it is the
+// limit of the same product with $v_h$. Compute that one by parts, triangle by triangle. As
+// $∂_y v_h = 0$ inside, only the edges are left,
 //
 // $$ ∫ v_h ∂_y φ = ∑_E ∫_E [v_h] φ n_y, $$
 //
 // with the jump $[v_h]$ over the edge $E$: the steps of the staircase. The question is
-// whether this sum tends to 0. CR's jump is a straight line along $E$ with the mean 0. So a
-// $φ$ that is constant along $E$ gives 0, and only the change of $φ$ along $E$ counts,
-// which is small on a short edge: a line of slope $b$ against one of slope $s$ gives
-// $b s |E|^3/12$. On right triangles, where each triangle has one horizontal edge and one
-// diagonal, the sum is at most
+// whether this sum tends to 0.
+//
+// *One edge.* CR's jump is a straight line along $E$ with the mean 0. So a $φ$ that is
+// constant along $E$ gives 0, and only the change of $φ$ along $E$ counts, which is small
+// on a short edge: a line of slope $b$ against one of slope $s$ and of mean 0 gives
+// $b s |E|^3/12$.
+//
+// *All edges of right triangles* with legs $h$. The vertical edge of a triangle has
+// $n_y = 0$. Let its $v_h$ have the slope $g = ∂_x v_h$. As $∂_y v_h = 0$, its slope $s$ is
+// $g$ along the horizontal edge and $2^{-1/2} g$ along the diagonal one. There $φ$ has the
+// slopes $b = ∂_x φ$ and $2^{-1/2} (∂_x φ + ∂_y φ)$, $n_y$ is 1 and $2^{-1/2}$, and $|E|$
+// is $h$ and $2^{1/2} h$. So the two edges give $g ∂_x φ$ and $g (∂_x φ + ∂_y φ)$, each
+// times $h^3/12$, which is $h/6$ times the area of the triangle. Sum over the triangles, by
+// Cauchy and Schwarz:
 //
 // $$ \frac{h}{6} (‖∂_x φ‖ + ‖∂_x φ + ∂_y φ‖) ‖v_h‖_h = 0.632 h ‖v_h‖_h   \text{for } φ = \sin πx \sin πy. $$
 //
@@ -108,6 +119,7 @@
 #include "antilock/analysis/negative_part.hpp"
 #include "antilock/exact/exact_norms.hpp"
 #include "antilock/form/h1_gram_matrix.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -137,12 +149,19 @@ Table measure(const Method& method, int cells, const Exact& u, const Exact& u0) 
   // ### Solve
   const Eigen::VectorXd u_h = active_set(problem).u;
   Table row(columns);
-  row.add({method.element->name(), method.family.name, cells, 1.0 / cells,
-           best_approximation(space, problem, u.reference(), AdmissibleSet::k_h).distance,
-           best_approximation(space, problem, u0.reference(), AdmissibleSet::k_0h).distance,
-           negative_part(space, problem, norm).constant,
-           dual_norm(problem, norm, slope_of_phi, true), below(contact_trace(space, u_h)),
-           std::sqrt(u_h.dot(norm * u_h))});
+  const auto distance = [&](const Exact& to, AdmissibleSet set) {
+    return best_approximation(space, problem, to.reference(), set).distance;
+  };
+  tutorial::add_row(row, {{"element", method.element->name()},
+                          {"mesh", method.family.name},
+                          {"cells", cells},
+                          {"h", 1.0 / cells},
+                          {"to_k", distance(u, AdmissibleSet::k_h)},
+                          {"to_k0", distance(u0, AdmissibleSet::k_0h)},
+                          {"c_h", negative_part(space, problem, norm).constant},
+                          {"k_h", dual_norm(problem, norm, slope_of_phi, true)},
+                          {"dip", below(contact_trace(space, u_h))},
+                          {"size", std::sqrt(u_h.dot(norm * u_h))}});
   return row;
 }
 

@@ -96,6 +96,7 @@
 
 #include "antilock/analysis/best_approximation.hpp"
 #include "antilock/exact/exact_norms.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -121,8 +122,15 @@ Table solve_all(const Method& method, int cells, const std::vector<Exact>& exact
     const Errors errors = exact.errors(space, solution);
     const double kept =
         solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact();
-    rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells,
-              errors.h1, space.free_count(), errors.energy, 1 / kept - 1});
+    tutorial::add_row(rows, {{"element", method.element->name()},
+                             {"mesh", method.family.name},
+                             {"epsilon", exact.epsilon},
+                             {"cells", cells},
+                             {"h", 1.0 / cells},
+                             {"h1", errors.h1},
+                             {"unknowns", space.free_count()},
+                             {"energy", errors.energy},
+                             {"lost_to_kept", 1 / kept - 1}});
   }
   return rows;
 }

@@ -26,13 +26,10 @@ const std::vector<tutorial::Exercise> exercises{
 
 // ## Answers on paper
 //
-// **2.** By the law of chapter 06 P1 loses the share $ρ/(1 + ρ)$ of the ridge,
-// $ρ = (5.84 k/ε)^2$. That no more is lost is proved for the energy on regular meshes, up
-// to interpolation; that about as much is lost is observed. By this law the worst error
-// over $[ε(h), 1]$ tends to 0 if and only if $ε(h)$ moves to the right of the wall for
-// good: $ε(h)/k → ∞$. On the unstructured mesh $k ∼ h^{3/2}$ (observed). Over $[h, 1]$ $ρ$
-// is at most of the order of $h$, and the worst error tends to 0. Over $[h^2, 1]$ it does
-// not: at $ε = h^2$ nearly all is lost, the more the finer the mesh. On the Delaunay mesh
-// $k ≈ 0.117 h$ (observed). At $ε = h$ the law says $ρ = 0.47$: the share $ρ/(1 + ρ)$,
-// about a third, is lost however fine the mesh is. So even over $[h, 1]$ the worst error
-// does not tend to 0.
+// **2.** By the law of chapter 06, $ρ = (5.84 k/ε)^2$, the worst error over $[ε(h), 1]$
+// tends to 0 if and only if $ε(h)$ moves to the right of the wall for good: $ε(h)/k → ∞$.
+// On the unstructured mesh $k ∼ h^{3/2}$ (observed). Over $[h, 1]$ $ρ$ is at most of the
+// order of $h$, and the worst error tends to 0. Over $[h^2, 1]$ it does not: at $ε = h^2$
+// nearly all is lost, the more the finer the mesh. On the Delaunay mesh $k ≈ 0.117 h$
+// (observed). At $ε = h$ the law says $ρ = 0.47$: the share $ρ/(1 + ρ)$, about a third, is
+// lost however fine the mesh is. So even over $[h, 1]$ the worst error does not tend to 0.

@@ -87,13 +87,16 @@
 // in chapter 12, by a product with something fixed. Take a smooth vector field $q$, 0 on
 // the free sides, and integrate by parts on each triangle. With the jump $[v_h]$,
 //
-// $$ ∫ ∇v_h·q + ∫ v_h \operatorname{div} q = ∑_E ∫_E [v_h] q·n. $$
+// $$ ∫ ∇v_h·q + ∫ v_h \operatorname{div} q = ∑_E ∫_E [v_h] q·n, $$
 //
-// where on $Γ_D$ the jump is the value. Let $v_h → v$ and $∇v_h → z$ weakly. Then the left
-// side tends to $∫ z·q + ∫ v \operatorname{div} q$. If the right side tends to 0, this is 0
-// for every $q$, which is what "$z$ is the gradient of $v$, and $v = 0$ on $Γ_D$" means. So
-// (H0nc) holds if *the work of each smooth flux on the jumps of bounded $v_h$ tends to 0*.
-// For CR it does (proved): the jumps have mean 0, so only the change of the flux along an
+// where on $Γ_D$ the jump is the value.
+//
+// *A criterion.* Let $v_h → v$ and $∇v_h → z$ weakly. Then the left side tends to
+// $∫ z·q + ∫ v \operatorname{div} q$. If the right side tends to 0, this is 0 for every $q$,
+// which is what "$z$ is the gradient of $v$, and $v = 0$ on $Γ_D$" means. So (H0nc) holds if
+// *the work of each smooth flux on the jumps of bounded $v_h$ tends to 0*.
+//
+// *CR fulfils it* (proved). The jumps have mean 0, so only the change of the flux along an
 // edge counts, and by chapter 12's count its work is at most $C h ‖q‖_1 ‖v_h‖_h$.
 //
 // The estimate has one such sum in it, with the flux of $u$ itself. The run takes the worst

@@ -56,21 +56,11 @@
 // ## Is the $ε^{-1}$ real?
 //
 // For P1 on columns and for CR it is not: their errors do not depend on ε. For P1 on the
-// other families it is, as the run observes, with a constant that can be computed. By
-// [chapter 06](../06_p1_unstructured/06_p1_unstructured.cpp) P1 resists bending with
-// $(k/ε)^2$, where $k$ is a mean over the layer's triangles: the product of the extents of
-// the three sides in $x$, over four times the area. There it is proved that the loss is at
-// most what $k/ε$ allows. On the families below it is about that (observed):
-//
-// $$ \frac{\text{lost}}{\text{kept}} = ρ ≈ (5.84 \, k/ε)^2   \text{for the ridge } \sin 2πx. $$
-//
-// By this law half is lost at $ε = 5.84 k$, and the wall stands there: to the right of it
-// refining helps, to the left of it P1 has locked. On a family of regular meshes $k ≤ c h$,
-// since $k$ is at most the mean radius of the circles through the corners. So the wall is
-// at $ε = c h$ or to the left of it, which is $h ≪ ε$ again. It moves to the left if the
-// triangles without a vertical edge become rare, or their edges nearly vertical. On the
-// meshes of Frontal-Delaunay they are left in a band along the boundary whose width is of
-// the order of $h$, so $k^2 ∼ h · h^2$, and the wall is at $ε ∼ h^{3/2}$.
+// other families it is, with the constant of the law of
+// [chapter 06](../06_p1_unstructured/06_p1_unstructured.cpp#how-much-is-lost-one-number-per-triangle):
+// lost over kept is about $ρ = (5.84 \, k/ε)^2$ for the ridge $\sin 2πx$. By it the wall is
+// at $ε = 5.84 k$. As $k ≤ c h$ on regular meshes, it is at $ε = c h$ or to the left of it,
+// which is $h ≪ ε$ again. On the meshes of Frontal-Delaunay it is at $ε ∼ h^{3/2}$.
 //
 // The runs below have no contact, so that the ridge is $\sin 2πx$ and its exact height is
 // known in closed form. The height that P1 keeps is found by least squares along $Γ_C$.
@@ -115,6 +105,7 @@
 // the height of $u_h$ tends to that of its lowest point. ∎
 
 #include "antilock/analysis/locking.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -147,8 +138,15 @@ Table keep(const MeshFamily& family, const TriangleMesh& mesh, int cells,
     const double kept = with_sine / sine_squared /
                         ExactSolution(paper_sine_load(), epsilon, false).max_on_contact(),
                  at_wall = kappa * k / epsilon;
-    rows.add({family.name, cells, 1.0 / cells, k, epsilon, at_wall, 1 / kept - 1, kept,
-              kept * (1 + at_wall * at_wall)});
+    tutorial::add_row(rows, {{"family", family.name},
+                             {"cells", cells},
+                             {"h", 1.0 / cells},
+                             {"k", k},
+                             {"epsilon", epsilon},
+                             {"wall / epsilon", at_wall},
+                             {"x", 1 / kept - 1},
+                             {"kept", kept},
+                             {"kept / law", kept * (1 + at_wall * at_wall)}});
   }
   return rows;
 }

@@ -45,17 +45,15 @@
 // interpolant of degree $p$ has a slope across the layer, $∂_y I_h w$, where $w$ has none.
 // On a triangle with a vertical edge this slope is 0 for every degree: $w$ takes equal
 // values at equal $x$, so the interpolant is a function of $x$. On all others it is of the
-// order $h^p$. Let $κ$ be its norm over the layer, the *cost* of the ridge. The argument of
-// [chapter 06](../06_p1_unstructured/06_p1_unstructured.cpp) does not ask for the degree:
-// with $E$ the energy of the ridge without this slope, the share
+// order $h^p$. Let $κ$ be its norm over the layer, the *cost* of the ridge. The law of
+// [chapter 06](../06_p1_unstructured/06_p1_unstructured.cpp#how-much-is-lost-one-number-per-triangle)
+// does not ask for the degree: with its $E$ the share
 //
 // $$ \frac{1}{1 + ρ},   ρ = \frac{κ^2}{ε^2 E},   κ = ‖∂_y I_h w‖, $$
 //
-// of the ridge is kept, and P1's $ρ = (5.84 k/ε)^2$ is the case $κ = k ‖w''‖$. On a
-// Delaunay mesh $κ ∼ h^p$. On the mesh of Frontal-Delaunay most triangles of the layer have
-// a vertical edge, and the others are left along the boundary: there $κ ∼ h^{p + 1/2}$. A
-// higher degree moves the wall, the ε at which $ρ = 1$, to smaller ε. It does not remove
-// it.
+// of the ridge is kept, and P1 is the case $κ = k ‖w''‖$. On a Delaunay mesh $κ ∼ h^p$, on
+// that of Frontal-Delaunay $κ ∼ h^{p + 1/2}$. A higher degree moves the wall, the ε at
+// which $ρ = 1$, to smaller ε. It does not remove it.
 //
 // Contact is asked at the unknowns on $Γ_C$. For $p ≥ 2$ a polynomial may dip below 0
 // between them: $V_h ⊂ V$, but $K_h ⊄ K$. And $u$ is not smooth where contact ends. Nearer
@@ -65,6 +63,7 @@
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/layer_components.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -102,12 +101,21 @@ Table solve(const Method& method, int cells, double epsilon, const Field& load,
   // difference.
   const bool counted = cells <= 4 && method.family.name != "delaunay";
   Table row(names);
-  row.add({method.element->name(), method.element->degree(), method.family.name, cells,
-           1.0 / cells, space.free_count(), layer_components(space.mesh()).count,
-           counted ? TableEntry(layer_kernel_dimension(problem)) : TableEntry(""),
-           std::sqrt(squared), exact.errors(space, solution).h1,
-           solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact(),
-           1 / (1 + squared / (epsilon * epsilon * ridge))});
+  const double kept =
+      solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact();
+  tutorial::add_row(row,
+                    {{"element", method.element->name()},
+                     {"degree", method.element->degree()},
+                     {"mesh", method.family.name},
+                     {"cells", cells},
+                     {"h", 1.0 / cells},
+                     {"unknowns", space.free_count()},
+                     {"columns", layer_components(space.mesh()).count},
+                     {"kernel", counted ? TableEntry(layer_kernel_dimension(problem)) : ""},
+                     {"cost", std::sqrt(squared)},
+                     {"h1", exact.errors(space, solution).h1},
+                     {"kept", kept},
+                     {"law", 1 / (1 + squared / (epsilon * epsilon * ridge))}});
   return row;
 }
 

@@ -7,9 +7,8 @@
 // **Afterwards you can** predict how many digits a summed matrix loses, tell round-off from
 // locking, and solve the split form.
 //
-// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for condition
-// numbers, [03](../03_by_hand/03_by_hand.cpp) for the layer stress and the iterated
-// penalty, [06](../06_p1_unstructured/06_p1_unstructured.cpp) for locking.
+// Needs: [03](../03_by_hand/03_by_hand.cpp) for the layer stress and the iterated penalty,
+// [06](../06_p1_unstructured/06_p1_unstructured.cpp) for locking.
 // :live: roundoff
 //
 // **The picture.** Error against ε for five ways to solve one discrete problem, none of
@@ -39,8 +38,8 @@
 // without a complaint.
 // :number: 42 = line "of {} runs of the sum settle"
 //
-// The *condition number* foretells it: $κ(A) ∼ ε^{-2}$, and a solver may lose the relative
-// error $10^{-16} κ$.
+// The *condition number* $κ$, the largest eigenvalue over the smallest, foretells it:
+// $κ(A) ∼ ε^{-2}$, and a solver may lose the relative error $10^{-16} κ$.
 //
 // ## The way out
 //

@@ -8,8 +8,8 @@
 // **Afterwards you can** compute a bound of the error without an exact solution, and say
 // what the width of the bound consists of.
 //
-// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) (energy, cone,
-// Uzawa), [08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) (Crouzeix-Raviart),
+// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) (energy, cone),
+// [08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) (Crouzeix-Raviart),
 // [18](../18_roundoff/18_roundoff.cpp) (the layer stress `p` is an unknown).
 // :figure: certificate_width
 //
@@ -18,8 +18,10 @@
 // the colours has never seen $u$.*
 //
 // **Predict.** (a) The bound is computed at $ε = 1$ and at $ε = 0$. Where is it closer to
-// the error? (b) Uzawa is stopped after 1, 2, 4, ... steps of several hundred. From which
-// step on does the proved bound no longer fall?
+// the error? (b) An iteration guesses the contact forces and corrects them step by step
+// (Uzawa's method, [chapter 34](../34_solving_the_inequality/34_solving_the_inequality.cpp)).
+// It is stopped after 1, 2, 4, ... steps of several hundred. From which step on does the
+// proved bound no longer fall?
 //
 // ## From above and from below
 //

@@ -5,7 +5,7 @@
 // Run: 21_work_precision --freefem freefem/run   FreeFEM's active set beside them, the stiff part summed as it comes
 // Run: 21_work_precision --exercise 1
 //
-// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for Uzawa and its
+// Needs: [34](../34_solving_the_inequality/34_solving_the_inequality.cpp) for Uzawa and its
 // steps, [09](../09_convergence/09_convergence.cpp) for orders,
 // [18](../18_roundoff/18_roundoff.cpp) for CG + ILUT,
 // [19](../19_certificate/19_certificate.cpp) for the energy bracket.
@@ -37,7 +37,7 @@
 // guess is nearly right. Uzawa moves pressures instead. The operator behind it is
 // the *compliance* of $Γ_C$: pressure in, displacement out. With the best step the error
 // falls by $(κ - 1)/(κ + 1)$ per step, $κ$ the condition number of the compliance, so that
-// an error of $tol$ takes about $(κ/2) \ln(1/tol)$ steps (chapter 00).
+// an error of $tol$ takes about $(κ/2) \ln(1/tol)$ steps (chapter 34).
 //
 // How large is $κ$? Chapter 04 has the stiffness of $Γ_C$ against a pressure $\sin kπx$:
 // about $kπ$ at ε = 1, where the answer goes into the depth only as far as a half wave is
@@ -222,7 +222,7 @@ void judge_runs(const tutorial::Timing& study, double ridge, tutorial::Report& r
   report.claim(reliable,
                "the active set answers on every mesh and at every epsilon (observed)");
   // Uzawa ends where a step moves less than 1e-10 of u in the gap, which is its error on
-  // Gamma_C (chapter 00).
+  // Gamma_C.
   report.claim(apart <= 2e-10,
                "where Uzawa ends within its limit, its error is that of the active set to "
                "{:.0e} of u (observed)",

@@ -233,8 +233,8 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
   pairs.write(options.out / "pairs.csv");
   growth.write(options.out / "growth.csv");
   report.finish();
-  for (const Table& runs : {strong, weak, cut, without, told, split, coarse, summed, tao_coarse,
-                            tao_summed, tao_split})
+  for (const Table& runs : {strong, weak, cut, without, told, split, coarse, summed,
+                            tao_coarse, tao_summed, tao_split})
     tutorial::print_runs(runs);
   pairs.print("iterations to 1e-8 at 1/h = 32, 200 at most");
   growth.print("iterations to 1e-8 as 1/h grows");

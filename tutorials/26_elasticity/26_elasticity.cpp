@@ -61,6 +61,7 @@
 // [pressures](../29_pressure/29_pressure.cpp).)
 
 #include "antilock/study/sweep.hpp"
+#include "course/add_row.hpp"
 #include "course/rubber.hpp"
 #include "support.hpp"
 
@@ -196,8 +197,14 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
       const Solution solution = sweep.solve();
       const double force = solution.lambda.sum(),
                    percent = tutorial::percent_too_large(force, epsilon);
-      forces.add({rubber.name, 1 / epsilon, epsilon, force, solution.counters.corrections,
-                  percent, !std::isnan(percent), rubber.locks});
+      tutorial::add_row(forces, {{"element", rubber.name},
+                                 {"lambda", 1 / epsilon},
+                                 {"epsilon", epsilon},
+                                 {"force", force},
+                                 {"corrections", solution.counters.corrections},
+                                 {"percent", percent},
+                                 {"known", !std::isnan(percent)},
+                                 {"locks", rubber.locks}});
     }
 
     // ### Output
@@ -208,14 +215,20 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
 
     // The checks that need no reference: what $B$ leaves free, patch test, motions without
     // energy.
-    checks.add({rubber.name, problem.free_count(), kernel_dimension(problem),
-                std::max(tutorial::patch_error(rubber, 1),
-                         tutorial::patch_error(rubber, options.epsilon)),
-                tutorial::zero_modes(problem),
-                rubber.jumps ? TableEntry(tutorial::zero_modes(pushed(rubber, space, 0)))
-                             : TableEntry(""),
-                tutorial::bulge(x, solution.u, 0), tutorial::bulge(x, solution.u, 1),
-                apart(pushed(rubber, space, 0), space)});
+    const double patch = std::max(tutorial::patch_error(rubber, 1),
+                                  tutorial::patch_error(rubber, options.epsilon));
+    const VariationalInequality without = pushed(rubber, space, 0);
+    tutorial::add_row(
+        checks,
+        {{"element", rubber.name},
+         {"unknowns", problem.free_count()},
+         {"kernel", kernel_dimension(problem)},
+         {"patch", patch},
+         {"zero_modes", tutorial::zero_modes(problem)},
+         {"without_jumps", rubber.jumps ? TableEntry(tutorial::zero_modes(without)) : ""},
+         {"bulge left", tutorial::bulge(x, solution.u, 0)},
+         {"right", tutorial::bulge(x, solution.u, 1)},
+         {"forms", apart(without, space)}});
   }
   report.stage("a smooth field that keeps the volume");
   const Table smooth = smooth_errors();

@@ -227,12 +227,14 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
 // $θ·τ$ is equal at the two corners opposite to the edge. Let $w$ and θ be 0 on a ring of
 // vertices (on the rim they are), and take a vertex $q$ of the next ring.
 //
-// - An edge of the outer ring that is opposite to $q$ in a triangle: $w = 0$ along it, so
-// $θ(q)·τ = 0$.
+// - An edge of the outer ring that is opposite to $q$ in a triangle (green): $w = 0$ along
+//   it, so $θ(q)·τ = 0$.
 // - An edge from a vertex $p$ of the outer ring to a neighbour $q'$ of $q$ in its ring,
-// opposite to $q$ in the triangle $q q' p$. On its other side lies a triangle with two
-// vertices of the outer ring. At its opposite corner θ is 0, so $θ(q)·τ = 0$ for this τ,
-// too.
+//   opposite to $q$ in the triangle $q q' p$ (blue). On its other side lies a triangle with
+//   two vertices of the outer ring. At its opposite corner θ is 0, so $θ(q)·τ = 0$ for this
+//   τ, too.
+//
+// :figure: plate_rings
 //
 // The two directions differ, because $q'$ is nearer to the centre than the line through the
 // outer edge. (A corner of the hexagon has two outer edges of the first kind, and the

@@ -111,6 +111,7 @@
 #include "antilock/exact/exact_norms.hpp"
 #include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/models/project_strain.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -182,8 +183,15 @@ Table measure(const Projection& way, int cells, const std::vector<Exact>& exact_
         projected_class_parameter(exact.epsilon * exact.epsilon, way.kept));
     Solution solution = sweep.solve();
     solution.p.resize(0);  // means, not one stress per triangle: the errors of u alone
-    rows.add({way.name, 1.0 / cells, exact.epsilon, exact.errors(space, solution).h1, alpha,
-              near, hidden, solution.counters.corrections, solution.seconds.total()});
+    tutorial::add_row(rows, {{"name", way.name},
+                             {"h", 1.0 / cells},
+                             {"epsilon", exact.epsilon},
+                             {"h1", exact.errors(space, solution).h1},
+                             {"alpha", alpha},
+                             {"near", near},
+                             {"hidden", hidden},
+                             {"corrections", solution.counters.corrections},
+                             {"seconds", solution.seconds.total()}});
   }
   return rows;
 }

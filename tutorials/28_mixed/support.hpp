@@ -1,5 +1,6 @@
 #pragma once
 #include "antilock/study/table.hpp"
+#include "course/add_row.hpp"
 #include "course/chapter.hpp"
 #include "course/course.hpp"
 
@@ -30,12 +31,16 @@ inline void show_projections(const std::filesystem::path& out, const Table& laye
     for (const Table& worst : supremum(own, "h1", "epsilon").rows.rows()) {
       const Table mesh = own.filter("h", worst.entry("h"));
       const double alpha = mesh.first("alpha");
-      rows.add({name, worst.entry("h"),
-                std::isfinite(alpha) ? TableEntry(alpha) : TableEntry(""),
-                mesh.first("near"), mesh.first("hidden"), worst.entry("worst"),
-                worst.entry("order"),
-                worst.number("worst") / mesh.filter("epsilon", 1).number("h1"),
-                mesh.max("seconds")});
+      const double ratio = worst.number("worst") / mesh.filter("epsilon", 1).number("h1");
+      add_row(rows, {{"strain", name},
+                     {"h", worst.entry("h")},
+                     {"alpha", std::isfinite(alpha) ? TableEntry(alpha) : ""},
+                     {"dist(u^0, K_0h)", mesh.first("near")},
+                     {"slope hidden", mesh.first("hidden")},
+                     {"sup error", worst.entry("worst")},
+                     {"order", worst.entry("order")},
+                     {"locking ratio", ratio},
+                     {"seconds", mesh.max("seconds")}});
       picture.add({name, worst.entry("h"), worst.entry("worst")});
     }
   }

@@ -5,8 +5,8 @@
 // Run: 30_friction --exercise 1
 // Run: 30_friction --exercise 2
 //
-// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for the inequality,
-// the active set and Uzawa, [26](../26_elasticity/26_elasticity.cpp) for the block and its
+// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for the inequality
+// and the active set, [26](../26_elasticity/26_elasticity.cpp) for the block and its
 // elements, [28](../28_mixed/28_mixed.cpp) for Theorem 4 with friction. **Here ε is the
 // parameter of the class (1) itself**, $ε = 1/λ$.
 //
@@ -44,14 +44,15 @@
 // Contact has a bound on the displacement and a sign of the force. Friction has two bounds
 // on the force and a sign of the displacement. In the library it is the bound
 // $lower = upper = 0$ on $u_x$, which gives way to a force beyond `force_limit`,
-// $g_i = ∫ g φ_i$ for unknown $i$. Both solvers of chapter 00 go on:
+// $g_i = ∫ g φ_i$ for unknown $i$. Two solvers of the library take it:
 //
 // - *Active set*: guess the case of every unknown. Where it sticks $u_i = 0$ is known and
 //   $T_i$ is found; where it
 // slips $T_i = ±g_i$ is known and $u_i$ is found. An unknown that violates its case changes
 // it.
-// - *Uzawa*: $T ←$ the nearest number to $T - ρ u_x$ in $[-g, g]$, in place of chapter 00's
-//   projection onto $λ ≥ 0$.
+// - *Uzawa* ([chapter 34](../34_solving_the_inequality/34_solving_the_inequality.cpp)):
+//   $T ←$ the nearest number to $T - ρ u_x$ in $[-g, g]$, in place of the projection onto
+//   $λ ≥ 0$.
 //
 // ## What is discretised, and what is proved
 //

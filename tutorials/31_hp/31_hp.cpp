@@ -75,6 +75,7 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/mesh/graded.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -107,9 +108,17 @@ Table solve(const std::string& series, const Grading& level, double end,
                found = contact_zone({space, problem, solution}).from.value_or(end);
   const auto [contact, below] = tutorial::on_contact(space, solution.u, exact.solution);
   Table row(hp_columns);
-  row.add({level.layers == none ? "equal cells" : "graded", series, exact.epsilon,
-           level.degree, 1.0 / level.cells, space.free_count(),
-           exact.errors(space, solution).h1, contact, below, found, seconds});
+  tutorial::add_row(row, {{"mesh", level.layers == none ? "equal cells" : "graded"},
+                          {"series", series},
+                          {"epsilon", exact.epsilon},
+                          {"degree", level.degree},
+                          {"h", 1.0 / level.cells},
+                          {"unknowns", space.free_count()},
+                          {"h1", exact.errors(space, solution).h1},
+                          {"contact", contact},
+                          {"below", below},
+                          {"end", found},
+                          {"seconds", seconds}});
   return row;
 }
 

@@ -3,11 +3,9 @@
 // Run: 33_your_own_problem                          two strings glued together, ε = 1e-10
 // Run: 33_your_own_problem --epsilon 0 --cells 64   a rigid glue
 // Run: 33_your_own_problem --exercise 1
-// Run: 33_your_own_problem --exercise 2
 //
 // **Afterwards you can** describe a problem of your own by two forms and its bounds, count
-// its kernel, and check the conditions of Theorem 4. You can couple two bodies whose meshes
-// do not match, and test it.
+// its kernel, and check the conditions of Theorem 4.
 //
 // Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for strings,
 // [07](../07_kernel/07_kernel.cpp) for kernels, [10](../10_limits/10_limits.cpp) for the
@@ -22,13 +20,10 @@
 // **Predict.** Two strings, one above the other, have corners at different places: one has
 // $n$ cells, the other $n + 1$. (a) How many independent pairs of broken lines are equal
 // everywhere and 0 at the ends? (b) The lower string has $n$ cells. If $u - w$ need only be
-// orthogonal to its $n - 1$ hat functions, how many independent pairs are left? (c) Without
-// glue, the upper string is pressed onto the lower one, and that one onto the floor. Which
-// force is larger, the one between the strings or that of the floor? (d) Two blocks are
-// pressed together so that the exact pressure between them is 1. Their meshes do not match.
-// By how much is the pressure of *node to segment* wrong, and is it better on finer meshes?
-// (e) The stiff layer of the course lies between two blocks. Which share of the force passes
-// through it for P1, where its mesh has no columns?
+// orthogonal to its $n - 1$ hat functions, how many independent pairs are left?
+//
+// A second page of this chapter, in the track *Structures*, is about two bodies that touch.
+// Its program is this one.
 //
 // ## Two strings and a glue
 //
@@ -187,7 +182,7 @@ void own(const tutorial::Options& options, tutorial::Report& report) {
                "(observed) strings held 0.1 apart: K and G are {:.2g} from meeting; the "
                "solver says: {}",
                apart, refusal);
-  touch(options, report);
+  touch(options, report);  // the second page
   press(options, report);
 }
 
@@ -217,6 +212,50 @@ void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Ta
                rigid.number("corrections"));
 }
 
+// ## What came out
+//
+// (a) None but 0, on any mesh: the energy is 0 in place of -10.667. (b) $n$, and $2n$ on
+// the finer mesh: the truth is met, up to what P1 misses on one string of tension 2,
+// $q^2 h^2 c/24$. Strings held 0.1 apart have no solution at ε = 0: the solver refuses, and
+// says why.
+// :number: -10.667 = line "in place of {}"
+//
+// ## Exercises
+//
+// 1. Give both strings $n$ cells. Does the glue at every point still lock?
+//
+// **A problem of your own.** Replace $A_1$, $B$, $M$, load and bounds. The checks need no
+// truth: `check_hypotheses` answers for one mesh what a matrix can answer, whether the form
+// is coercive, how large the kernel is, and whether $K$ and $G$ meet. Ask it on two meshes.
+//
+// ## Further reading
+//
+// - [Wohlmuth 2011](../guides/bibliography.md#wohlmuth-2011): mortar methods.
+
+// :page: 33_two_bodies
+// # Two bodies that touch
+//
+// Run: 33_your_own_problem --exercise 2
+//
+// **Afterwards you can** couple two bodies whose meshes do not match by constraints, and
+// test it.
+//
+// Needs: [33](../33_your_own_problem/33_your_own_problem.cpp) for the two strings and the
+// mortar, [07](../07_kernel/07_kernel.cpp) for the layer that P1 cannot move.
+//
+// **The picture.** Two strings that touch, above a floor. *The forces are right. The
+// pressure between them is not, because their corners do not match.*
+//
+// :figure: touching_strings
+//
+// **Predict.** (a) Without glue, the upper string is pressed onto the lower one, and that
+// one onto the floor. Which force is larger, the one between the strings or that of the
+// floor? (b) Two blocks are pressed together so that the exact pressure between them is 1.
+// Their meshes do not match. Each corner of one mesh must stay on its side of the other
+// (*node to segment*). By how much is its pressure wrong, and is it better on finer meshes?
+// (c) The stiff layer of the course lies between two blocks. Which share of the force passes
+// through it for P1, where its mesh has no columns?
+//
 // ## Two strings that only touch
 //
 // A contact between two bodies bounds no unknown: it bounds a difference of unknowns. Take
@@ -292,8 +331,7 @@ void touch(const tutorial::Options& options, tutorial::Report& report) {
 // the *slave*: each of its unknowns gets a constraint. The other side is the *master*. With
 // the jump $[u] = u_{above} - u_{below}$ and the distance $g$ of the bodies,
 //
-// $$ [u]\,(x_i) ≥ -g(x_i)   \text{ (node to segment)},
-//    ∫ ψ_i [u] ≥ -∫ ψ_i g   \text{ (mortar)}. $$
+// $$ [u]\,(x_i) ≥ -g(x_i)   \text{ (node to segment)},   ∫ ψ_i [u] ≥ -∫ ψ_i g   \text{ (mortar)}. $$
 //
 // Above, the mortar had hat functions for $ψ_i$. Here they are *dual* to the hats $φ_j$ of
 // the slave: $∫ ψ_i φ_j = 0$ for $i ≠ j$, so that each constraint contains one slave unknown
@@ -381,21 +419,15 @@ void press(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) None but 0, on any mesh: the energy is 0 in place of -10.667. (b) $n$, and $2n$ on
-// the finer mesh: the truth is met, up to what P1 misses on one string of tension 2,
-// $q^2 h^2 c/24$. Strings held 0.1 apart have no solution at ε = 0: the solver refuses, and
-// says why. (c) The force between the strings: the lower string hands most of it to the
-// floor, and hangs on its ends with the rest, $q s$. Both forces are right to order $h^2$.
-// The pressure between the strings is not: it wavers by a tenth around $q/2$ and $q$, since
-// the corner of one string stands now in the middle of a cell of the other and now at its
-// end. This is the known price of node to segment. Exercise 2 removes it.
-// :number: -10.667 = line "in place of {}"
+// (a) The force between the strings: the lower string hands most of it to the floor, and
+// hangs on its ends with the rest, $q s$. Both forces are right to order $h^2$. The
+// pressure between the strings is not: it wavers by a tenth around $q/2$ and $q$, since the
+// corner of one string stands now in the middle of a cell of the other and now at its end.
+// This is the known price of node to segment. Exercise 2 removes it.
 //
-// :figure: touching_strings
-//
-// (d) By 16 % with 2 cells of the slave opposite 3 of the master, and it is no better on the
+// (b) By 16 % with 2 cells of the slave opposite 3 of the master, and it is no better on the
 // finer meshes: the pressure alternates, as a corner of the slave stands at a corner of the
-// master or in the middle of a cell. The mortar finds 1 to round-off. (e) None of it, at
+// master or in the middle of a cell. The mortar finds 1 to round-off. (c) None of it, at
 // ε = 1e-6: below the layer the pressure is 0, and the lower block does not move. The
 // constraints are not to blame. With the same ones the force through the layer is 0.471 for
 // Crouzeix-Raviart and 0.475 for P1 in columns.
@@ -406,10 +438,7 @@ void press(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// 1. Give both strings $n$ cells. Does the glue at every point still lock?
 // 2. Give both strings that only touch $n$ cells. Is the pressure between them smooth?
-// 3. A problem of your own: replace $A_1$, $B$, $M$, load and bounds; the checks need no
-//    truth.
 //
 // ## Further reading
 //

@@ -40,10 +40,3 @@ const std::vector<tutorial::Exercise> exercises{
        report.claim(worst < 1e-9 * load,
                     "pressure between the strings off by {:.1e} at most", worst);
      }}};
-
-// ## Answers on paper
-//
-// **3.** Ask the four questions of chapter 28 of it, in their order: is $a_1 + a_{0h}$
-// coercive, does $K_{0h}$ approach $K_0$, do limits lie in $G$, does $a_{0h}$ tend to
-// $a_0$? `check_hypotheses` answers for one mesh what a matrix can answer: coercive, the
-// kernel, and whether $K$ and $G$ meet. Ask it on two meshes.

@@ -4,15 +4,16 @@
 // Run: 34_solving_the_inequality --cells 32     the same down to 1/32
 // Run: 34_solving_the_inequality --exercise 1
 // Run: 34_solving_the_inequality --exercise 2
+// Run: 34_solving_the_inequality --exercise 3
 //
-// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for the active set
-// and Uzawa's method, [03](../03_by_hand/03_by_hand.cpp) for the iterated penalty,
-// [06](../06_p1_unstructured/06_p1_unstructured.cpp) for the mesh on which P1 locks,
-// [21](../21_work_precision/21_work_precision.cpp) for the compliance of $Γ_C$.
+// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for the active set,
+// [03](../03_by_hand/03_by_hand.cpp) for the iterated penalty,
+// [06](../06_p1_unstructured/06_p1_unstructured.cpp) for the mesh on which P1 locks.
 //
 // **Afterwards you can** name the solvers of an obstacle problem and say what each step of
-// them costs; predict how the number of steps grows as $h$ or ε falls; and read from the
-// way in which a solver fails that an element has locked.
+// them costs; predict how the number of steps grows as $h$ or ε falls, for Uzawa's method
+// from a condition number; and read from the way in which a solver fails that an element
+// has locked.
 //
 // **Predict.** The answer at ε = 0 touches the obstacle along a part of $Γ_C$. Two methods
 // start without knowing where: the *active set* guesses the points that touch, *proximal
@@ -30,16 +31,17 @@
 //
 // Here $w$ are the values of $s$ without an obstacle. Column $i$ of $F$ is the displacement
 // that the force 1 at the point $i$ alone brings about: $F$ is the *flexibility matrix* of
-// $Γ_C$, the discrete form of the compliance of chapter 21. It is symmetric, and it is
+// $Γ_C$, its *compliance*: force in, displacement out. It is symmetric, and it is
 // positive semidefinite, because $λ^T F λ$ is twice the energy that the forces λ store. The
 // iterated penalty of chapter 03 computes $w$ and $F$ by one linear solve for each of their
 // columns, and nothing is divided by ε in it. So the line above is the whole problem
 // for *every* ε, and ε = 0 is a value like any other: all that ε and the element do is in
 // $F$. A step of any method below costs products with $F$ or a linear system on $Γ_C$.
 //
-// The two energies of chapter 00 become functions on $Γ_C$. The *dual* one is a function of
-// the forces, $D(λ) = ½ λ^T F λ + w^T λ$ with $λ ≥ 0$, and its gradient is $s$. Where $F$
-// has an inverse, the *primal* one is a function of the displacements,
+// There are two energies on $Γ_C$. The *dual* one is a function of the forces,
+// $D(λ) = ½ λ^T F λ + w^T λ$ with $λ ≥ 0$: up to a constant, what body and layer store under
+// the load and the forces λ. Its gradient is $s$. Where $F$ has an inverse, the energy of
+// chapter 00 becomes the *primal* one, a function of the displacements,
 // $J(s) = ½ (s - w)^T F^{-1} (s - w)$ with $s ≥ 0$, and its gradient is λ.
 
 #include <CLI/CLI.hpp>
@@ -104,17 +106,35 @@ Found semismooth_newton(const OnContact& p, std::vector<bool> active) {
 
 // ## Uzawa, and its acceleration
 //
-// Uzawa's method goes down the gradient of $D$ and cuts λ at 0 (chapter 00). Its factor per
-// step is $1 - 2/κ$, with the condition number κ of $F$. *Nesterov's* method takes the
-// gradient at a point a little further along the last step, and its factor is about
-// $1 - 1/\sqrt κ$. The extrapolation may go uphill. Where it does, the method starts again
-// without extrapolation (O'Donoghue and Candès 2015). So its steps grow like $1/h$, and
-// Uzawa's like $1/h^2$.
-Found uzawa_on_contact(const OnContact& p, bool accelerated) {
+// Guess the forces of the obstacle instead. They give the displacements $s = w + F λ$. Where
+// these are below the obstacle, push more; where they are above, push less, but never pull:
+//
+// $$ λ_i ← \max(0, λ_i - ρ s_i). $$
+//
+// This is *Uzawa's* method, with which the paper computes. The *step* $ρ$ is a positive
+// number of our choice. A pair that no step changes is the answer: where $λ_i > 0$ it has
+// $s_i = 0$, and where $λ_i = 0$ it has $s_i ≥ 0$. The steps get there because each of them
+// goes downhill in the dual energy $D$: its gradient is $s$, the step goes against it, and
+// the maximum projects back onto $λ ≥ 0$. So this is a *projected gradient* method.
+//
+// *What does a digit cost?* A step multiplies the part of the error that belongs to the
+// eigenvalue $σ$ of $F$ by $1 - ρσ$. So each step below $2/σ_{max}$ is safe. With
+// $ρ = 2/(σ_{max} + σ_{min})$ no part has a factor above $(κ - 1)/(κ + 1)$, about
+// $1 - 2/κ$, where the *condition number* $κ = σ_{max}/σ_{min}$ is the largest eigenvalue
+// over the smallest. For the string of chapter 00 it can be computed. There $F = A^{-1}$,
+// and the eigenvalues of $A$ are $4 \sin^2(kπh/2)/h$. So those of $F$ lie between about
+// $h/4$ and $1/(π² h)$, and $κ ≈ 4/(π² h²)$: halve $h$, and a digit takes four times as many
+// steps. As ε → 0 the layer resists like a string, and pays the same price.
+//
+// *Nesterov's* method takes the gradient at a point a little further along the last step,
+// and its factor is about $1 - 1/\sqrt κ$. The extrapolation may go uphill. Where it does,
+// the method starts again without extrapolation (O'Donoghue and Candès 2015). So its steps
+// grow like $1/h$, and Uzawa's like $1/h^2$.
+Found uzawa_on_contact(const OnContact& p, bool accelerated, double longer = 1) {
   const VectorXd eigenvalues = symmetric_eigenvalues(p.f);
   const double most = std::max(eigenvalues.maxCoeff(), 1e-300);
   const double least = std::max(eigenvalues.minCoeff(), 0.0);
-  const double rho = accelerated ? 1 / most : 2 / (most + least);
+  const double rho = longer * (accelerated ? 1 / most : 2 / (most + least));
   Found found{p.w, 0 * p.w};
   VectorXd ahead = found.lambda;  // where the gradient is taken
   double weight = 1;
@@ -199,7 +219,7 @@ Found augmented_lagrangian(const OnContact& p, double r) {
 // How many proximal steps? Let $u_k$ be the iterates and $u$ the answer. Each step is a
 // minimum, and $J$ is convex, so
 //
-// $$ J(u_k) - J(u) ≤ D_h(u, u_0) / (α_1 + ... + α_k)   (proved, exercise 3). $$
+// $$ J(u_k) - J(u) ≤ D_h(u, u_0) / (α_1 + ... + α_k)   (proved, exercise 4). $$
 //
 // Neither $h$ nor ε stands there: with $α_k = 2^k$ each step halves the bound, on every
 // mesh and at every ε. Each step must have a solution, and for this an *inner point* is
@@ -493,8 +513,8 @@ void judge(const Table& runs, tutorial::Report& report) {
   const Table fine =
       agreeing.filter_number("h", [](double h) { return h < 0.1; });  // from 1/16 on
   const Table rigid = fine.filter("space", "P1 structured").filter("epsilon", 0.0);
-  // On columns alone, because gmsh's meshes differ from version to version: with gmsh 4.13 P1
-  // takes 6 steps at epsilon = 0.01.
+  // On columns alone, because gmsh's meshes differ from version to version: with gmsh 4.13
+  // P1 takes 6 steps at epsilon = 0.01.
   const Table nested =
       fine.filter("space", "P1 structured").filter("solver", "active set, nested");
   const Table proximal = agreeing.filter("solver", "proximal Galerkin");
@@ -576,11 +596,15 @@ void judge(const Table& runs, tutorial::Report& report) {
 //    there then?
 // 2. The augmented Lagrangian at ε = 0: multiply $r$ by 100. What happens to the outer
 //    steps, and to the linear systems?
-// 3. On paper: prove the bound for $J(u_k) - J(u)$.
-// 4. On paper: why do the active set and Uzawa's method end without an error for $F = 0$?
+// 3. Uzawa at ε = 0 with twice the step, beyond $2/σ_{max}$. Does it diverge? (At which
+//    points is λ not 0?)
+// 4. On paper: prove the bound for $J(u_k) - J(u)$.
+// 5. On paper: why do the active set and Uzawa's method end without an error for $F = 0$?
 //
 // ## Further reading
 //
+// - [Glowinski 1984](../guides/bibliography.md#glowinski-1984): Uzawa's method and its
+//   step.
 // - M. R. Hestenes, *Multiplier and gradient methods*, J. Optim. Theory Appl. 4 (1969),
 //   doi:10.1007/BF00927673
 // - M. J. D. Powell, *A method for nonlinear constraints in minimization problems*, in R.

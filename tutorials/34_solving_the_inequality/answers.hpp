@@ -35,11 +35,32 @@ const std::vector<tutorial::Exercise> exercises{
                     soft.outer);
        report.claim(hard.steps <= soft.steps, "linear systems in all: {} in place of {}",
                     hard.steps, soft.steps);
+     }},
+    {"Uzawa at epsilon = 0, P1 on columns, 1/h = 32, with twice the step, beyond 2 / "
+     "sigma_max. Does it diverge?",
+     "no: it takes half as many steps. Where nothing touches lambda is 0, so that the "
+     "compliance of the touching points alone counts, once they are known. Its largest "
+     "eigenvalue is smaller",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const Space space(structured_mesh(32), p1());
+       const OnContact p = tutorial::condense(assemble(tutorial::paper_scene(0), space));
+       const int safe = uzawa_on_contact(p, false).steps,
+                 bold = uzawa_on_contact(p, false, 2).steps;
+       report.claim_within(static_cast<double>(safe) / bold, 1.9, 2.1,
+                           "steps saved, a factor");
+       const std::vector<int> set =
+           tutorial::members(semismooth_newton(p, std::vector<bool>(p.w.size())).active);
+       const double all = symmetric_eigenvalues(p.f).maxCoeff(),
+                    touching = symmetric_eigenvalues(p.f(set, set)).maxCoeff();
+       report.claim(touching < all / 2,
+                    "the largest eigenvalue of the touching points is {:.2f} of that of "
+                    "all: steps up to {:.1f} times as long are safe",
+                    touching / all, all / touching);
      }}};
 
 // ## Answers on paper
 //
-// **3.** Step $k$ minimises $α_k J(v) + D_h(v, u_{k-1})$. At the minimum
+// **4.** Step $k$ minimises $α_k J(v) + D_h(v, u_{k-1})$. At the minimum
 // $α_k J'(u_k)(v - u_k) = ∑ h (ψ_{k-1} - ψ_k)_i (v - u_k)_i$ for every $v$. Put in $D_h$
 // and see that the right side is $D_h(v, u_k) + D_h(u_k, u_{k-1}) - D_h(v, u_{k-1})$
 // (the *three points identity*). With $v = u$ and $J(u) - J(u_k) ≥ J'(u_k)(u - u_k)$ this
@@ -48,6 +69,6 @@ const std::vector<tutorial::Exercise> exercises{
 // $D_h(u, u_0)$. And $J(u_k)$ does not grow, because $v = u_{k-1}$ is a candidate of step
 // $k$. So the sum is at least $(α_1 + ... + α_k)(J(u_k) - J(u))$.
 //
-// **4.** If $F = 0$, a force moves nothing, and $s = w = 0$ at every point. So the active
+// **5.** If $F = 0$, a force moves nothing, and $s = w = 0$ at every point. So the active
 // set method meets no wrong sign, and ends after one guess. The gradient in Uzawa's method
 // is 0. Both answers are right for the discrete problem: its only admissible function is 0.

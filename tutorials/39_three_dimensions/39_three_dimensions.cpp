@@ -184,6 +184,7 @@
 #include "antilock/analysis/locking_beside_cr.hpp"
 #include "antilock/exact/exact_solution_in_space.hpp"
 #include "antilock/study/scene_sweep.hpp"
+#include "course/add_row.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -301,11 +302,17 @@ Table solve_free(const Element& element, const std::string& family, int cells,
     sweep.set_epsilon(epsilon);
     const Solution solution = sweep.solve();
     const double all = released_by(exact);
-    rows.add({element.name() + " " + family, element.name(), family, cells, 1.0 / cells,
-              space.free_count(), epsilon, exact.relative_error(space, solution),
-              released.of(sweep.problem(), solution) / all,
-              released.bound(sweep.problem()) / all,
-              slope / (epsilon * epsilon * stiffness_of_ridge)});
+    tutorial::add_row(rows, {{"method", element.name() + " " + family},
+                             {"element", element.name()},
+                             {"mesh", family},
+                             {"cells", cells},
+                             {"h", 1.0 / cells},
+                             {"unknowns", space.free_count()},
+                             {"epsilon", epsilon},
+                             {"error", exact.relative_error(space, solution)},
+                             {"kept", released.of(sweep.problem(), solution) / all},
+                             {"bound", released.bound(sweep.problem()) / all},
+                             {"rho", slope / (epsilon * epsilon * stiffness_of_ridge)}});
   }
   return rows;
 }
@@ -340,10 +347,18 @@ Table describe_meshes() {
       const auto kernel = [&](const Element& element) {
         return layer_kernel_dimension(assemble(free_scene(0), Space(space, element)));
       };
-      rows.add({family, n, layer, faces.sigma, layer_components(mesh).count, kernel(affine),
-                family == "structured" ? (n - 1) * (n - 1) : 0, kernel(cr),
-                layer + (faces.sigma + faces.bottom - faces.sides) / 2,
-                n * tutorial::bending_length_in_space(mesh)});
+      const int of_cr = layer + (faces.sigma + faces.bottom - faces.sides) / 2;
+      tutorial::add_row(rows,
+                        {{"mesh", family},
+                         {"cells", n},
+                         {"N_T", layer},
+                         {"F_Sigma", faces.sigma},
+                         {"groups", layer_components(mesh).count},
+                         {"P1", kernel(affine)},
+                         {"P1 predicted", family == "structured" ? (n - 1) * (n - 1) : 0},
+                         {"CR", kernel(cr)},
+                         {"CR predicted", of_cr},
+                         {"k/h", n * tutorial::bending_length_in_space(mesh)}});
     }
   return rows;
 }

@@ -47,6 +47,11 @@ def minutes(lines):
     return max(5, 5 * round(total / 5))
 
 
+def title_of(lines):
+    """The title of a page."""
+    return next(line.removeprefix("// # ") for line in lines if line.startswith("// # "))
+
+
 def needed(lines):
     """The numbers of the chapters that the paragraph `Needs:` of a page names."""
     prose = [line for kind, block in chunks(lines) if kind == "prose" for line in block]
@@ -74,12 +79,14 @@ class Part:
     def __init__(self, row):
         self.title, self.kind, self.about, self.chapters = row["title"], row["kind"], row["about"], row["chapters"]
 
-    def measure(self, folder, others):
-        """Reads the chapters. `others` are all parts of the book."""
-        pages = {part: {name: lines for chapter in part.chapters
-                        for name, lines in pages_of(folder / chapter / f"{chapter}.cpp").items()}
+    def measure(self, book, others):
+        """Takes its pages from those of the book. `others` are all parts."""
+        placed = {name for part in others for name in part.chapters}
+        pages = {part: {name: lines for place in part.chapters for name, (chapter, lines) in book.items()
+                        if name == place or (chapter == place and name not in placed)}
                  for part in others}
         self.pages = list(pages[self])
+        self.second = {name: title_of(pages[self][name]) for name in self.chapters if book[name][0] != name}
         self.minutes = {name: minutes(lines) for name, lines in pages[self].items()}
         self.total = sum(self.minutes.values())
         known = {name[:2] for part in others if part is self or part.kind == "course" for name in part.chapters}
@@ -128,14 +135,16 @@ def read(folder=TUTORIALS):
     parts = [Part(row) for row in rows]
     placed = [name for part in parts for name in part.chapters]
     there = sorted(path.name for path in folder.glob("[0-9][0-9]_*") if (path / f"{path.name}.cpp").is_file())
-    for name in there:
-        if placed.count(name) != 1:
+    book = {name: (chapter, lines) for chapter in there
+            for name, lines in pages_of(folder / chapter / f"{chapter}.cpp").items()}
+    for name in book:
+        if placed.count(name) > 1 or (name in there and name not in placed):
             raise BookError(f"{TABLE}: {name} stands in it {placed.count(name)} times; accepted: once, as a line in `chapters` of one part")
     for name in placed:
-        if name not in there:
+        if name not in book:
             raise BookError(f"{TABLE}: there is no chapter {name}")
     for part in parts:
-        part.measure(folder, parts)
+        part.measure(book, parts)
         if part.kind == "course" and part.needs:
             raise BookError(f"{TABLE}: the course needs chapter {part.needs[0]}, which is none of its chapters")
     return parts
@@ -156,6 +165,9 @@ def sorted_readme(text, parts):
         time = "" if part.kind == "course" else f"{part.takes().capitalize()}. "
         lines += [f"### {title}", "", *textwrap.wrap(f"{part.about} {time}{part.relation()}", width=132), ""]
         for name in part.chapters:
+            if name not in entries and name in part.second:
+                lines.append(f"- {name[:2]}, second page: {part.second[name]}")
+                continue
             if name not in entries:
                 raise BookError(f"tutorials/README.md: no entry for {name} under \"All chapters\"")
             lines.append(entries[name])

@@ -366,8 +366,8 @@ class Book:
             for name, lines in pages_of(source).items():
                 page = Page(source, lines, ROOT / f"freefem/{name}.edp", self.draft)
                 self.pages[name] = page
-                # a second page has the button of the first one
-                page.runs = page.runs or self.pages[source.stem].runs[:1]
+                if name != source.stem:  # a second page has the button of the first one
+                    page.runs = self.pages[source.stem].runs[:1] + page.runs
                 for tag in TAG.findall("\n".join(page.body)):
                     self.equations.setdefault(tag, name)
         for still in STILLS.values():

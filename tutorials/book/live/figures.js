@@ -1,9 +1,9 @@
 // The live figures of chapters: an entry each. What they ask is answered by the live.hpp of the chapter.
 "use strict";
 antilock.figures.string = (box) => antilock.asked(box, {
-  title: "Step by step: the active set, and Uzawa beside it", stem: "00_string_on_an_obstacle",
+  title: "Step by step: the active set", stem: "00_string_on_an_obstacle",
   controls: { cells: { label: "cells", values: [8, 16, 32, 64], start: 32 } },
-  keys: { cr: "active set", touching: "guessed to touch", wrong: "wrong sign", p1: "Uzawa", exact: "answer", other: "pressure of the floor / 25" },
+  keys: { cr: "active set", touching: "guessed to touch", wrong: "wrong sign", exact: "answer", other: "pressure of the floor / 25" },
   make(place) {
     place.innerHTML = `<p class="live-controls"><label for="live-string-step">step <output></output></label>
       <input id="live-string-step" type="range" min="0" max="1" step="1" value="0"> <button type="button">play</button></p>`;
@@ -15,7 +15,6 @@ antilock.figures.string = (box) => antilock.asked(box, {
       const k = Number(range.value), now = steps[k], along = (rows, name) => [[0, 0], ...rows.map((row) => [row.x, row[name]]), [1, 0]];
       chart.curve("exact", along(steps.at(-1), "u"));
       chart.curve("other", along(now.map(({ x, pressure }) => ({ x, pressure: pressure / 25 })), "pressure"));
-      chart.curve("p1", along(now, "uzawa"));
       chart.curve("cr", along(now, "u"), { markers: now.length < 32 });
       chart.curve("touching", now.filter((row) => row.held).map((row) => [row.x, row.u]), { joined: false, markers: true });
       const wrong = now.filter((row) => row.u < 0 || row.pressure < 0);
