@@ -572,7 +572,8 @@ class Accessible(Book):
         self.show("index")
         self.run_script(axe_core())
         self.run_script("document.querySelector('article').append(new Image())")
-        self.assertRegex(self.browser.execute_async_script(RUN_AXE, False)[0], "^image-alt: 1 times")
+        found = self.browser.execute_async_script(RUN_AXE, False)
+        self.assertRegex(found[0], "^image-alt: 1 times")
 
     def test_the_keyboard_skips_the_contents_and_sees_where_it_is(self):
         self.show("08_crouzeix_raviart")
@@ -856,7 +857,8 @@ class LiveFigure(Book):
             with self.subTest(kind=kind):
                 open_at(kind, 375)
         open_at("string")
-        self.assertEqual(says("string", "after 9 linear solves")[0], 9)  # as the chapter says for 32 cells
+        # as the chapter says for 32 cells
+        self.assertEqual(says("string", "after 9 linear solves")[0], 9)
         open_at("move")
         says("move", "^6 groups of triangles; G_h has 5 functions")
         vertex = self.browser.find_element("css selector", "#live-move circle")

@@ -491,13 +491,15 @@ int behind;""".splitlines()
             more.write_text(moved)
             parts = read(self.root / "tutorials")
             more.write_text(COURSE)
-            self.assertEqual([part.pages for part in parts], [["00_start", "07_middle"], ["27_later", "07_more"]])
+            self.assertEqual([part.pages for part in parts],
+                             [["00_start", "07_middle"], ["27_later", "07_more"]])
             self.assertEqual(parts[1].second, {"07_more": "Its second page"})
         swapped = COURSE.replace("07_middle", "28_more").replace("27_later", "07_middle").replace("28_more", "27_later")
         for says, table in (
                 ("27_later stands in it 0 times; accepted: once", COURSE.replace("27_later", "28_more")),
                 ("00_start stands in it 2 times; accepted: once", COURSE.replace('"27_later"', '"27_later", "00_start"')),
-                ("07_more stands in it 2 times; accepted: once", moved.replace('"00_start"', '"00_start", "07_more"')),
+                ("07_more stands in it 2 times; accepted: once",
+                 moved.replace('"00_start"', '"00_start", "07_more"')),
                 ("there is no chapter 28_more", COURSE.replace('"27_later"', '"27_later", "28_more"')),
                 ("part More: kind path is unknown; accepted: course, track, appendix", COURSE.replace('"track"', '"path"')),
                 ("part Basics: unknown key abuot; accepted: title", COURSE.replace("about", "abuot = 1\nabout", 1)),

@@ -190,7 +190,7 @@ TriangleMesh squashed(TriangleMesh mesh, double epsilon) {
   return mesh;
 }
 
-// The stiff part wherever it is: in a1 for (22), in B and epsilon^2 for (23).
+// The stiff part is in a1 for (22), and in B and epsilon^2 for (23).
 double energy_form(const VariationalInequality& problem, const Eigen::VectorXd& v) {
   const double rest = v.dot(problem.a1 * v);
   if (problem.b.rows() == 0) return rest;
