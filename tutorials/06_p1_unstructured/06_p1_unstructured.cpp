@@ -98,7 +98,8 @@
 // $u_D = 0$ and $λ u^0 = 0$, so the contact pressure $λ$ of $u^0$ added no term above.
 // Since $k ≤ c h$,
 //
-// $$ \text{P1 loses at most the share } \frac{ρ}{1 + ρ} \text{ of the energy } E/2,   ρ = (c h/ε)^2, \text{ on any regular mesh,} $$
+// $$ \text{P1 loses at most the share } \frac{ρ}{1 + ρ} \text{ of the energy } E/2,
+// ρ = (c h/ε)^2, \text{ on any regular mesh,} $$
 //
 // and a part that tends to 0 with $h$.
 //

@@ -92,9 +92,9 @@
 // where on $Γ_D$ the jump is the value.
 //
 // *A criterion.* Let $v_h → v$ and $∇v_h → z$ weakly. Then the left side tends to
-// $∫ z·q + ∫ v \operatorname{div} q$. If the right side tends to 0, this is 0 for every $q$,
-// which is what "$z$ is the gradient of $v$, and $v = 0$ on $Γ_D$" means. So (H0nc) holds if
-// *the work of each smooth flux on the jumps of bounded $v_h$ tends to 0*.
+// $∫ z·q + ∫ v \operatorname{div} q$. If the right side tends to 0, this is 0 for every
+// $q$, which is what "$z$ is the gradient of $v$, and $v = 0$ on $Γ_D$" means. So (H0nc)
+// holds if *the work of each smooth flux on the jumps of bounded $v_h$ tends to 0*.
 //
 // *CR fulfils it* (proved). The jumps have mean 0, so only the change of the flux along an
 // edge counts, and by chapter 12's count its work is at most $C h ‖q‖_1 ‖v_h‖_h$.
