@@ -98,20 +98,23 @@
 //
 // *One edge.* CR's jump is a straight line along $E$ with the mean 0. So a $φ$ that is
 // constant along $E$ gives 0, and only the change of $φ$ along $E$ counts, which is small
-// on a short edge: a line of slope $b$ against one of slope $s$ and of mean 0 gives
-// $b s |E|^3/12$.
+// on a short edge. The jump is the difference of the $v_h$ of two triangles, which have the
+// same mean over $E$. So from each triangle only the change of its $v_h$ along $E$ is left:
+// a line of slope $s$ and of mean 0. Its product with a line of slope $b$ has the integral
+// $b s |E|^3/12$. (At an edge on the boundary of the layer φ is 0.)
 //
 // *All edges of right triangles* with legs $h$. The vertical edge of a triangle has
 // $n_y = 0$. Let its $v_h$ have the slope $g = ∂_x v_h$. As $∂_y v_h = 0$, its slope $s$ is
 // $g$ along the horizontal edge and $2^{-1/2} g$ along the diagonal one. There $φ$ has the
 // slopes $b = ∂_x φ$ and $2^{-1/2} (∂_x φ + ∂_y φ)$, $n_y$ is 1 and $2^{-1/2}$, and $|E|$
-// is $h$ and $2^{1/2} h$. So the two edges give $g ∂_x φ$ and $g (∂_x φ + ∂_y φ)$, each
-// times $h^3/12$, which is $h/6$ times the area of the triangle. Sum over the triangles, by
-// Cauchy and Schwarz:
+// is $h$ and $2^{1/2} h$. (φ is no straight line, but it is one up to $h^2$.) So the two
+// edges give $g ∂_x φ$ and $g (∂_x φ + ∂_y φ)$, each times $h^3/12$, which is $h/6$ times
+// the area of the triangle. Sum over the triangles, by Cauchy and Schwarz. Up to the order
+// $h^2$ the sum is at most
 //
 // $$ \frac{h}{6} (‖∂_x φ‖ + ‖∂_x φ + ∂_y φ‖) ‖v_h‖_h = 0.632 h ‖v_h‖_h   \text{for } φ = \sin πx \sin πy. $$
 //
-// It tends to 0, so $v$ is in $K_0$. A CR function may be a staircase, but only by a height
+// This tends to 0, so $v$ is in $K_0$. A CR function may be a staircase, but only by a height
 // like $h$. The run computes the largest such sum over all $v_h$ of $G_h$ with norm 1, for
 // this one $φ$, and calls it $k_h$.
 
