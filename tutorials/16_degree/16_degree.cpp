@@ -51,9 +51,10 @@
 //
 // $$ \frac{1}{1 + ρ},   ρ = \frac{κ^2}{ε^2 E},   κ = ‖∂_y I_h w‖, $$
 //
-// of the ridge is kept, and P1 is the case $κ = k ‖w''‖$. On a Delaunay mesh $κ ∼ h^p$, on
-// that of Frontal-Delaunay $κ ∼ h^{p + 1/2}$. A higher degree moves the wall, the ε at
-// which $ρ = 1$, to smaller ε. It does not remove it.
+// of the ridge is kept, and P1 is the case $κ = k ‖w''‖$. On a Delaunay mesh $κ ∼ h^p$. On
+// that of Frontal-Delaunay the triangles without a vertical edge are left along the
+// boundary, so their share of the layer falls like $h$, and $κ ∼ h^{p + 1/2}$. A higher
+// degree moves the wall, the ε at which $ρ = 1$, to smaller ε. It does not remove it.
 //
 // Contact is asked at the unknowns on $Γ_C$. For $p ≥ 2$ a polynomial may dip below 0
 // between them: $V_h ⊂ V$, but $K_h ⊄ K$. And $u$ is not smooth where contact ends. Nearer
