@@ -23,7 +23,7 @@
 // orthogonal to its $n - 1$ hat functions, how many independent pairs are left?
 //
 // A second page of this chapter, in the track *Structures*, is about two bodies that touch.
-// Its program is this one.
+// The same program runs both pages, and `touch` and `press` below belong to the second one.
 //
 // ## Two strings and a glue
 //
@@ -53,16 +53,15 @@
 //
 // - (i) $a_1$ is coercive alone, since both strings are held at their ends;
 // - (ii) let $(u, u)$ with $u ≥ -g$ be given. Interpolate $u$ on the upper string, and let
-//   the lower one be its projection,
-// $∫ (I u - w_h) φ_i = 0$. $w_h$ tends to $u$ in $H^1$, and so uniformly: it is below $-g$
-// by some $δ_h → 0$ at most. Add $2 δ_h$ times one fixed smooth bump to the upper string, a
-// bump that is 1 where $u < -g/2$, and project again. The projection is linear, so $w_h$
-// grows by $2 δ_h$ times the projection of the bump, which tends to the bump uniformly: for
-// small $h$ it is at least ½ where $u < -g/2$. So $w_h ≥ -g$ there. Elsewhere $w_h$ is near
-// $u ≥ -g/2$. And $a_{0h} = 0$;
+//   the lower one be its projection, $∫ (I u - w_h) φ_i = 0$. $w_h$ tends to $u$ in $H^1$,
+//   and so uniformly: it is below $-g$ by some $δ_h → 0$ at most. Add $2 δ_h$ times one
+//   fixed smooth bump to the upper string, a bump that is 1 where $u < -g/2$, and project
+//   again. The projection is linear, so $w_h$ grows by $2 δ_h$ times the projection of the
+//   bump, which tends to the bump uniformly: for small $h$ it is at least ½ where
+//   $u < -g/2$. So $w_h ≥ -g$ there. Elsewhere $w_h$ is near $u ≥ -g/2$. And $a_{0h} = 0$;
 // - (iii), (iv) bounded pairs have a subsequence for which $u_h - w_h$ converges strongly
-//   in $L^2$ (*Rellich*'s theorem). Means over
-// a width of $2h$ then tend to the function itself, and $a_{0h}$ to $a_0$.
+//   in $L^2$ (*Rellich*'s theorem). Means over a width of $2h$ then tend to the function
+//   itself, and $a_{0h}$ to $a_0$.
 //
 // So the mortar converges uniformly in ε, with the obstacle (*proved*). For a problem of
 // your own these are the four questions to answer. The kernel is the quick test before.
@@ -238,7 +237,7 @@ void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Ta
 // Run: 33_your_own_problem --exercise 2
 //
 // **Afterwards you can** couple two bodies whose meshes do not match by constraints, and
-// test it.
+// check them by a patch test.
 //
 // Needs: [33](../33_your_own_problem/33_your_own_problem.cpp) for the two strings and the
 // mortar, [07](../07_kernel/07_kernel.cpp) for the layer that P1 cannot move.
@@ -253,8 +252,8 @@ void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Ta
 // floor? (b) Two blocks are pressed together so that the exact pressure between them is 1.
 // Their meshes do not match. Each corner of one mesh must stay on its side of the other
 // (*node to segment*). By how much is its pressure wrong, and is it better on finer meshes?
-// (c) The stiff layer of the course lies between two blocks. Which share of the force passes
-// through it for P1, where its mesh has no columns?
+// (c) The stiff layer of the course lies between two blocks. Which share of the force
+// passes through it for P1, where its mesh has no columns?
 //
 // ## Two strings that only touch
 //
@@ -333,19 +332,20 @@ void touch(const tutorial::Options& options, tutorial::Report& report) {
 //
 // $$ [u]\,(x_i) ≥ -g(x_i)   \text{ (node to segment)},   ∫ ψ_i [u] ≥ -∫ ψ_i g   \text{ (mortar)}. $$
 //
-// Above, the mortar had hat functions for $ψ_i$. Here they are *dual* to the hats $φ_j$ of
-// the slave: $∫ ψ_i φ_j = 0$ for $i ≠ j$, so that each constraint contains one slave unknown
-// only. On an edge with the hats $a$ and $b$ they are $2a - b$ and $2b - a$. For
-// Crouzeix-Raviart, whose unknown is a mean over an edge, $ψ_i$ is 1 on one slave edge.
+// On the first page the mortar had hat functions for $ψ_i$. Here they are *dual* to the
+// hats $φ_j$ of the slave: $∫ ψ_i φ_j = 0$ for $i ≠ j$, so that each constraint contains
+// one slave unknown only. On an edge with the hats $a$ and $b$ they are $2a - b$ and
+// $2b - a$. For Crouzeix-Raviart, whose unknown is a mean over an edge, $ψ_i$ is 1 on one
+// slave edge.
 //
-// **A patch test.** Two blocks overlap by 2 before they are brought together: $g = -2$. Their
-// far ends are held at 0, and their sides are free. The truth is $u = 1 - y$ above and
-// $u = -1 - y$ below, with the pressure 1. Both meshes contain these functions. So a method
-// finds them if its forces do the work of a constant pressure on each test function $v$:
-// $\sum_i λ_i c_i · v = ∫ [v]$ for $λ_i = ∫ ψ_i$, with $c_i$ the row that takes the mean. The
-// left side is $\sum_i ∫ ψ_i [v]$, and the $ψ_i$ of the mortar sum to 1 (*proved*). Node to
-// segment replaces $∫ v$ on the master by a rule whose points lie at the slave's corners. It
-// is not exact for the hats of the master.
+// **A patch test.** Two blocks overlap by 2 before they are brought together: $g = -2$.
+// Their far ends are held at 0, and their sides are free. The truth is $u = 1 - y$ above
+// and $u = -1 - y$ below, with the pressure 1. Both meshes contain these functions. So a
+// method finds them if its forces do the work of a constant pressure on each test function
+// $v$: $\sum_i λ_i c_i · v = ∫ [v]$ for $λ_i = ∫ ψ_i$, with $c_i$ the row that takes the
+// mean. The left side is $\sum_i ∫ ψ_i [v]$, and the $ψ_i$ of the mortar sum to 1
+// (*proved*). Node to segment replaces $∫ v$ on the master by a rule whose points lie at
+// the slave's corners. It is not exact for the hats of the master.
 struct Interface {
   Eigen::MatrixX3d table;  // x, distance and pressure of each constraint
   double force;
@@ -425,10 +425,10 @@ void press(const tutorial::Options& options, tutorial::Report& report) {
 // corner of one string stands now in the middle of a cell of the other and now at its end.
 // This is the known price of node to segment. Exercise 2 removes it.
 //
-// (b) By 16 % with 2 cells of the slave opposite 3 of the master, and it is no better on the
-// finer meshes: the pressure alternates, as a corner of the slave stands at a corner of the
-// master or in the middle of a cell. The mortar finds 1 to round-off. (c) None of it, at
-// ε = 1e-6: below the layer the pressure is 0, and the lower block does not move. The
+// (b) By 16 % with 2 cells of the slave opposite 3 of the master, and it is no better on
+// the finer meshes: the pressure alternates, as a corner of the slave stands at a corner of
+// the master or in the middle of a cell. The mortar finds 1 to round-off. (c) None of it,
+// at ε = 1e-6: below the layer the pressure is 0, and the lower block does not move. The
 // constraints are not to blame. With the same ones the force through the layer is 0.471 for
 // Crouzeix-Raviart and 0.475 for P1 in columns.
 // :number: 0.471 = line "(observed) Crouzeix-Raviart {}"
