@@ -39,8 +39,8 @@
 // $F$. A step of any method below costs products with $F$ or a linear system on $Γ_C$.
 //
 // There are two energies on $Γ_C$. The *dual* one is a function of the forces,
-// $D(λ) = ½ λ^T F λ + w^T λ$ with $λ ≥ 0$: up to a constant, what body and layer store under
-// the load and the forces λ. Its gradient is $s$. Where $F$ has an inverse, the energy of
+// $D(λ) = ½ λ^T F λ + w^T λ$ with $λ ≥ 0$. Up to a constant this is the energy that body
+// and layer store under the load and the forces λ. Its gradient is $s$. Where $F$ has an inverse, the energy of
 // chapter 00 becomes the *primal* one, a function of the displacements,
 // $J(s) = ½ (s - w)^T F^{-1} (s - w)$ with $s ≥ 0$, and its gradient is λ.
 
@@ -106,25 +106,28 @@ Found semismooth_newton(const OnContact& p, std::vector<bool> active) {
 
 // ## Uzawa, and its acceleration
 //
-// Guess the forces of the obstacle instead. They give the displacements $s = w + F λ$. Where
-// these are below the obstacle, push more; where they are above, push less, but never pull:
+// Guess the forces of the obstacle instead. They give the displacements $s = w + F λ$.
+// Where these are below the obstacle, push more; where they are above, push less, but never pull:
 //
 // $$ λ_i ← \max(0, λ_i - ρ s_i). $$
 //
 // This is *Uzawa's* method, with which the paper computes. The *step* $ρ$ is a positive
 // number of our choice. A pair that no step changes is the answer: where $λ_i > 0$ it has
-// $s_i = 0$, and where $λ_i = 0$ it has $s_i ≥ 0$. The steps get there because each of them
-// goes downhill in the dual energy $D$: its gradient is $s$, the step goes against it, and
-// the maximum projects back onto $λ ≥ 0$. So this is a *projected gradient* method.
+// $s_i = 0$, and where $λ_i = 0$ it has $s_i ≥ 0$. If ρ is not too large, the steps get
+// there, because each of them goes downhill in the dual energy $D$: its gradient is $s$,
+// the step goes against it, and the maximum projects back onto $λ ≥ 0$. So this is a
+// *projected gradient* method.
 //
-// *What does a digit cost?* A step multiplies the part of the error that belongs to the
-// eigenvalue $σ$ of $F$ by $1 - ρσ$. So each step below $2/σ_{max}$ is safe. With
-// $ρ = 2/(σ_{max} + σ_{min})$ no part has a factor above $(κ - 1)/(κ + 1)$, about
-// $1 - 2/κ$, where the *condition number* $κ = σ_{max}/σ_{min}$ is the largest eigenvalue
-// over the smallest. For the string of chapter 00 it can be computed. There $F = A^{-1}$,
-// and the eigenvalues of $A$ are $4 \sin^2(kπh/2)/h$. So those of $F$ lie between about
-// $h/4$ and $1/(π² h)$, and $κ ≈ 4/(π² h²)$: halve $h$, and a digit takes four times as many
-// steps. As ε → 0 the layer resists like a string, and pays the same price.
+// *How many steps does a digit take?* The gradient step multiplies the part of the error
+// that belongs to the eigenvalue $σ$ of $F$ by $1 - ρσ$. The maximum moves no λ farther
+// from the answer, because the answer is not negative. So each step below $2/σ_{max}$ is
+// safe. With $ρ = 2/(σ_{max} + σ_{min})$ no part has a factor above $(κ - 1)/(κ + 1)$ in
+// size, about $1 - 2/κ$, where the *condition number* $κ = σ_{max}/σ_{min}$ is the largest
+// eigenvalue over the smallest. For the string of chapter 00 it can be computed. There
+// $F = A^{-1}$, and the eigenvalues of $A$ are $4 \sin^2(kπh/2)/h$. So those of $F$ lie
+// between about $h/4$ and $1/(π² h)$, and $κ ≈ 4/(π² h²)$: halve $h$, and a digit takes four
+// times as many steps. As ε → 0 the layer resists like a string (chapter 04), and κ grows
+// like $1/h^2$ there, too.
 //
 // *Nesterov's* method takes the gradient at a point a little further along the last step,
 // and its factor is about $1 - 1/\sqrt κ$. The extrapolation may go uphill. Where it does,

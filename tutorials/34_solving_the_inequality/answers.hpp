@@ -60,6 +60,15 @@ const std::vector<tutorial::Exercise> exercises{
 
 // ## Answers on paper
 //
+// **3.** Once the points that touch are known, their block of $F$ alone decides which steps
+// are safe. For the string of chapter 00 its largest eigenvalue is about $1/(k² h)$, where
+// $k$ is the smallest solution of $\tan(k(1 - c)) = -k c$, and contact starts at $c$. This
+// is $k = 2π$, since $\tan 2πc = 2πc$. So steps below $8π² h$ are safe then, and for all
+// points only those below $2π² h$. From $λ = 0$ on the longer ones are not safe, because
+// the points are not known yet. On 32 cells $ρ = 4π² h$ takes less than half as many steps
+// as $ρ = 1.9π² h$. With $ρ = 5π² h$ Uzawa's method does not end within 20,000 steps: it
+// swings between no contact and too much (measured).
+//
 // **4.** Step $k$ minimises $α_k J(v) + D_h(v, u_{k-1})$. At the minimum
 // $α_k J'(u_k)(v - u_k) = ∑ h (ψ_{k-1} - ψ_k)_i (v - u_k)_i$ for every $v$. Put in $D_h$
 // and see that the right side is $D_h(v, u_k) + D_h(u_k, u_{k-1}) - D_h(v, u_{k-1})$
