@@ -200,11 +200,12 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 // :figure: string_steps
 //
 // (a) It tries 9 of $2^{31}$. Each guess corrects the one before, and from the second one
-// on they only shrink. (The first shape is 0 at $x = ½$, up to round-off. If its sign is
-// the other one there, this node is not in the second guess, and 8 guesses are enough.) (b)
-// Right of it: contact starts at 0.7151 and not at the middle, since the lifted half pulls
-// its neighbour up. Where the string lies flat it does not bend, so the pressure is $-f$:
-// from the first touch on, the floor carries the whole load.
+// on they only shrink. (In exact numbers the first shape is 0 at $x = ½$. The computed one
+// is a little below 0 there. Were it a little above, this node would not be in the second
+// guess, and 8 guesses would be enough.) (b) Right of it: contact starts at 0.7151 and not
+// at the middle, since the lifted half pulls its neighbour up. Where the string lies flat
+// it does not bend, so the pressure is $-f$: from the first touch on, the floor carries the
+// whole load.
 // :number: 9 = line "linear solves of the active set: {}"
 // :number: 0.7151 = line "the node next to {}"
 //
