@@ -67,7 +67,7 @@ const std::vector<tutorial::Exercise> exercises{
 // points only those below $2π² h$. From $λ = 0$ on the longer ones are not safe, because
 // the points are not known yet. On 32 cells $ρ = 4π² h$ takes less than half as many steps
 // as $ρ = 1.9π² h$. With $ρ = 5π² h$ Uzawa's method does not end within 20,000 steps: it
-// swings between no contact and too much (measured).
+// swings between too little contact and too much (measured).
 //
 // **4.** Step $k$ minimises $α_k J(v) + D_h(v, u_{k-1})$. At the minimum
 // $α_k J'(u_k)(v - u_k) = ∑ h (ψ_{k-1} - ψ_k)_i (v - u_k)_i$ for every $v$. Put in $D_h$
