@@ -60,21 +60,20 @@
 // the obstacle:
 //
 // - (i) *$a_1 + a_{0h}$ is coercive, with one constant for all $h$.* $a_1$ bounds $θ$,
-//   because $θ$ is clamped. And
-// $|w'| ≤ |w' - P θ| + |P θ|$ bounds $w$: a mean is not larger than its function.
+//   because $θ$ is clamped. And $|w'| ≤ |w' - P θ| + |P θ|$ bounds $w$: a mean is not
+//   larger than its function.
 // - (ii) *Each limit $w$, with $θ = w'$, is approached by pairs without shear, above the
-// obstacle.* Let $θ_h$ be P1 with $∫ θ_h = 0$. The values $w_h(x_i) = ∫_0^{x_i} θ_h$ at the
-// nodes make a P1 function with $w_h' = P θ_h$, clamped at both ends. Start from the
-// interpolant of $θ$. It tends to $θ$ in $H^1$, so its integral misses $w$ by some
-// $δ_h → 0$ at most. Add multiples of two fixed smooth slopes, of size $C δ_h$. First lift
-// $w_h$ by $C δ_h$ where $w < -½$. Then restore $∫ θ_h = 0$, which the interpolant missed
-// by $δ_h$ and the lift by $O(h^2 δ_h)$. This moves $w_h$ by at most $C' δ_h$. With
-// $C ≥ C' + 1$ still $w_h ≥ -1$. (Where shear is allowed, interpolation is enough: $K_h$
-// approaches $K$.)
+//   obstacle.* Let $θ_h$ be P1 with $∫ θ_h = 0$. The values $w_h(x_i) = ∫_0^{x_i} θ_h$ at
+//   the nodes make a P1 function with $w_h' = P θ_h$, clamped at both ends. Start from the
+//   interpolant of $θ$. It tends to $θ$ in $H^1$, so its integral misses $w$ by some
+//   $δ_h → 0$ at most. Add multiples of two fixed smooth slopes, of size $C δ_h$. First
+//   lift $w_h$ by $C δ_h$ where $w < -½$. Then restore $∫ θ_h = 0$, which the interpolant
+//   missed by $δ_h$ and the lift by $O(h^2 δ_h)$. This moves $w_h$ by at most $C' δ_h$.
+//   With $C ≥ C' + 1$ still $w_h ≥ -1$. (Where shear is allowed, interpolation is enough:
+//   $K_h$ approaches $K$.)
 // - (iii) *Bounded pairs whose shear $w_h' - P θ_h$ tends to 0 have limits without shear.*
-//   $θ_h$ tends to $θ$ strongly in
-// $L^2$, and so does $P θ_h$, because $|θ_h - P θ_h| ≤ h |θ_h'|$. So $w_h' - P θ_h$ tends
-// weakly to $w' - θ$, which is 0.
+//   $θ_h$ tends to $θ$ strongly in $L^2$, and so does $P θ_h$, because
+//   $|θ_h - P θ_h| ≤ h |θ_h'|$. So $w_h' - P θ_h$ tends weakly to $w' - θ$, which is 0.
 // - (iv) *$a_{0h}$ passes to the limit*: it is the product of a weak and a strong limit, or
 //   a square, by the same line.
 //

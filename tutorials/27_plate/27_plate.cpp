@@ -44,19 +44,17 @@
 //
 // $$ a_{0h} = ∫ P(∇w - θ)·P(∇v - φ). $$
 //
-// - *Arnold–Falk* (1989): $P$ is the mean over each triangle. $w$ is CR. θ is P1 and
-//   a *bubble* per triangle,
-// $27 λ_0 λ_1 λ_2$ with the three hat functions of its corners. A bubble is 0 on all edges,
-// so no other triangle feels it, and its mean is not 0. So it sets the mean of θ on its
-// triangle to any value, to that of $∇w$ for instance: for every $w$, and every P1 part of
-// θ, there is one θ without shear.
+// - *Arnold–Falk* (1989): $P$ is the mean over each triangle. $w$ is CR. θ is P1 and a
+//   *bubble* per triangle, $27 λ_0 λ_1 λ_2$ with the three hat functions of its corners. A
+//   bubble is 0 on all edges, so no other triangle feels it, and its mean is not 0. So it
+//   sets the mean of θ on its triangle to any value, to that of $∇w$ for instance: for
+//   every $w$, and every P1 part of θ, there is one θ without shear.
 // - *Durán–Liberman* (1992): on each triangle $P$ knows three numbers of a field. Each is
-//   the mean over one edge of the
-// component along this edge, τ. Three numbers fix a field $a + b (-y, x)$, with $a ∈ R^2$
-// and a number $b$ (Nédélec's lowest field). The one with the same three means is what $P$
-// makes of a field. $w$ is P1, and $P$ leaves its gradient as it is. θ is P1 and one
-// function per edge, along τ, 0 on the two other edges. It sets the mean of its edge: for
-// every P1 part again one θ without shear.
+//   the mean over one edge of the component along this edge, τ. Three numbers fix a field
+//   $a + b (-y, x)$, with $a ∈ R^2$ and a number $b$ (Nédélec's lowest field). The one with
+//   the same three means is what $P$ makes of a field. $w$ is P1, and $P$ leaves its
+//   gradient as it is. θ is P1 and one function per edge, along τ, 0 on the two other
+//   edges. It sets the mean of its edge: for every P1 part again one θ without shear.
 //
 // :figure: plate_elements
 //
@@ -68,21 +66,19 @@
 // $|∇θ|^2 ≤ 2 |e(θ)|^2$ for a clamped θ, makes $a_1$ alone coercive in θ.
 //
 // - (i) What is left is to bound $∇w$. It is a constant on each triangle, which $P$ keeps.
-//   So
-// $|∇w| ≤ |P(∇w - θ)| + |Pθ|$: the first is in $a_{0h}$, the second is at most a constant
-// times θ in $H^1$. So $a_1 + a_{0h}$ is coercive, with a constant that holds for all $h$.
+//   So $|∇w| ≤ |P(∇w - θ)| + |Pθ|$: the first is in $a_{0h}$, the second is at most a
+//   constant times θ in $H^1$. So $a_1 + a_{0h}$ is coercive, with a constant that holds
+//   for all $h$.
 // - (ii) Each $w ≥ -1$ with its rotation $∇w$ must be a limit of discrete pairs without
-//   shear. Let $w$ be smooth. (Such $w$
-// come near all others on a convex polygon: shrink and smooth; both keep $w ≥ -1$.)
-// Interpolate $w$ by edge means (CR) or by its values at vertices (P1): both keep
-// $w_h ≥ -1$. Interpolate θ by P1. Then let the bubbles or the edge functions take away the
-// shear that is left. They need the size $|θ - I θ| ∼ h^2$ for it, and their gradients are
-// of the size $h$: the pair stays near.
+//   shear. Let $w$ be smooth. (Such $w$ come near all others on a convex polygon: shrink
+//   and smooth; both keep $w ≥ -1$.) Interpolate $w$ by edge means (CR) or by its values at
+//   vertices (P1): both keep $w_h ≥ -1$. Interpolate θ by P1. Then let the bubbles or the
+//   edge functions take away the shear that is left. They need the size $|θ - I θ| ∼ h^2$
+//   for it, and their gradients are of the size $h$: the pair stays near.
 // - (iii) $θ_h$ tends to θ strongly in $L^2$, because it is bounded in $H^1$. Hence $P θ_h$
-//   tends to θ, and $∇w_h$ to $∇w$
-// weakly (for CR triangle by triangle, chapter 12). If the shear $∇w_h - P θ_h$ vanishes,
-// $∇w = θ$. And $w ≥ -1$, because the mean of $w_h$ over a triangle, that of three values
-// at midpoints or at corners, is at least $-1$.
+//   tends to θ, and $∇w_h$ to $∇w$ weakly (for CR triangle by triangle, chapter 12). If the
+//   shear $∇w_h - P θ_h$ vanishes, $∇w = θ$. And $w ≥ -1$, because the mean of $w_h$ over a
+//   triangle, that of three values at midpoints or at corners, is at least $-1$.
 // - (iv) is the same line: a product of a weak and a strong limit, or a square.
 //
 // So both converge uniformly in $t$, contact included (*proved*). A rate is proved for the

@@ -47,7 +47,7 @@
 // - (iii) *it leaves nothing foreign:* weak limits of bounded $v_h ∈ K_h$ lie in $G$, if
 //   $a_{0h}(v_h, v_h) → 0$;
 // - (iv) *it is the right one at last:* if $w_h → w$ weakly and $v_h → v$, then
-// $a_{0h}(w_h, v_h) → a_0(w, v)$;
+//   $a_{0h}(w_h, v_h) → a_0(w, v)$;
 // - with friction: $j_h(v_h) → j(v)$, and $j_h(w_h)$ is at least $j(w)$ in the limit.
 //
 // (From (iv) it follows that $a_{0h}(w_h, w_h)$ is at least $a_0(w, w)$ in the limit. For

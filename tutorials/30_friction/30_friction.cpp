@@ -47,9 +47,8 @@
 // $g_i = ∫ g φ_i$ for unknown $i$. Two solvers of the library take it:
 //
 // - *Active set*: guess the case of every unknown. Where it sticks $u_i = 0$ is known and
-//   $T_i$ is found; where it
-// slips $T_i = ±g_i$ is known and $u_i$ is found. An unknown that violates its case changes
-// it.
+//   $T_i$ is found; where it slips $T_i = ±g_i$ is known and $u_i$ is found. An unknown
+//   that violates its case changes it.
 // - *Uzawa* ([chapter 34](../34_solving_the_inequality/34_solving_the_inequality.cpp)):
 //   $T ←$ the nearest number to $T - ρ u_x$ in $[-g, g]$, in place of the projection onto
 //   $λ ≥ 0$.
