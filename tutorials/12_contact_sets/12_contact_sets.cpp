@@ -114,9 +114,9 @@
 //
 // $$ \frac{h}{6} (‖∂_x φ‖ + ‖∂_x φ + ∂_y φ‖) ‖v_h‖_h = 0.632 h ‖v_h‖_h   \text{for } φ = \sin πx \sin πy. $$
 //
-// This tends to 0, so $v$ is in $K_0$. A CR function may be a staircase, but only by a height
-// like $h$. The run computes the largest such sum over all $v_h$ of $G_h$ with norm 1, for
-// this one $φ$, and calls it $k_h$.
+// This tends to 0, so $v$ is in $K_0$. A CR function may be a staircase, but only by a
+// height like $h$. The run computes the largest such sum over all $v_h$ of $G_h$ with norm
+// 1, for this one $φ$, and calls it $k_h$.
 
 #include "antilock/analysis/best_approximation.hpp"
 #include "antilock/analysis/negative_part.hpp"

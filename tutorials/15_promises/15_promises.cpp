@@ -59,9 +59,9 @@
 // other families it is, with the constant of the law of
 // [chapter 06](../06_p1_unstructured/06_p1_unstructured.cpp#how-much-is-lost-one-number-per-triangle):
 // lost over kept is about $ρ = (5.84 \, k/ε)^2$ for the ridge $\sin 2πx$. By it the wall is
-// at $ε = 5.84 k$. As $k$ is at most a constant times $h$ on regular meshes, so is the wall,
-// which is $h ≪ ε$ again. On the meshes of Frontal-Delaunay $k ∼ h^{3/2}$ (observed), and
-// the wall moves like $h^{3/2}$.
+// at $ε = 5.84 k$. As $k$ is at most a constant times $h$ on regular meshes, so is the
+// wall, which is $h ≪ ε$ again. On the meshes of Frontal-Delaunay $k ∼ h^{3/2}$ (observed),
+// and the wall moves like $h^{3/2}$.
 //
 // The runs below have no contact, so that the ridge is $\sin 2πx$ and its exact height is
 // known in closed form. The height that P1 keeps is found by least squares along $Γ_C$.

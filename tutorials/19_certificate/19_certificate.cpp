@@ -19,9 +19,10 @@
 //
 // **Predict.** (a) The bound is computed at $ε = 1$ and at $ε = 0$. Where is it closer to
 // the error? (b) An iteration guesses the contact forces and corrects them step by step:
-// Uzawa's method ([chapter 34](../34_solving_the_inequality/34_solving_the_inequality.cpp)).
-// It is stopped after 1, 2, 4, ... steps of several hundred. From which step on does the
-// proved bound no longer fall?
+// Uzawa's method
+// ([chapter 34](../34_solving_the_inequality/34_solving_the_inequality.cpp)). It is stopped
+// after 1, 2, 4, ... steps of several hundred. From which step on does the proved bound no
+// longer fall?
 //
 // ## From above and from below
 //

@@ -40,9 +40,9 @@
 //
 // There are two energies on $Γ_C$. The *dual* one is a function of the forces,
 // $D(λ) = ½ λ^T F λ + w^T λ$ with $λ ≥ 0$. Up to a constant this is the energy that body
-// and layer store under the load and the forces λ. Its gradient is $s$. Where $F$ has an inverse, the energy of
-// chapter 00 becomes the *primal* one, a function of the displacements,
-// $J(s) = ½ (s - w)^T F^{-1} (s - w)$ with $s ≥ 0$, and its gradient is λ.
+// and layer store under the load and the forces λ. Its gradient is $s$. Where $F$ has an
+// inverse, the energy of chapter 00 becomes the *primal* one, a function of the
+// displacements, $J(s) = ½ (s - w)^T F^{-1} (s - w)$ with $s ≥ 0$, and its gradient is λ.
 
 #include <CLI/CLI.hpp>
 
@@ -107,7 +107,8 @@ Found semismooth_newton(const OnContact& p, std::vector<bool> active) {
 // ## Uzawa, and its acceleration
 //
 // Guess the forces of the obstacle instead. They give the displacements $s = w + F λ$.
-// Where these are below the obstacle, push more; where they are above, push less, but never pull:
+// Where these are below the obstacle, push more; where they are above, push less, but never
+// pull:
 //
 // $$ λ_i ← \max(0, λ_i - ρ s_i). $$
 //
@@ -125,9 +126,9 @@ Found semismooth_newton(const OnContact& p, std::vector<bool> active) {
 // size, about $1 - 2/κ$, where the *condition number* $κ = σ_{max}/σ_{min}$ is the largest
 // eigenvalue over the smallest. For the string of chapter 00 it can be computed. There
 // $F = A^{-1}$, and the eigenvalues of $A$ are $4 \sin^2(kπh/2)/h$. So those of $F$ lie
-// between about $h/4$ and $1/(π² h)$, and $κ ≈ 4/(π² h²)$: halve $h$, and a digit takes four
-// times as many steps. As ε → 0 the layer resists like a string (chapter 04), and κ grows
-// like $1/h^2$ there, too.
+// between about $h/4$ and $1/(π² h)$, and $κ ≈ 4/(π² h²)$: halve $h$, and a digit takes
+// four times as many steps. As ε → 0 the layer resists like a string (chapter 04), and κ
+// grows like $1/h^2$ there, too.
 //
 // *Nesterov's* method takes the gradient at a point a little further along the last step,
 // and its factor is about $1 - 1/\sqrt κ$. The extrapolation may go uphill. Where it does,
