@@ -493,7 +493,7 @@ int behind;""".splitlines()
             more.write_text(COURSE)
             self.assertEqual([part.pages for part in parts],
                              [["00_start", "07_middle"], ["27_later", "07_more"]])
-            self.assertEqual(parts[1].second, {"07_more": "Its second page"})
+            self.assertEqual(parts[1].second, {"07_more": ("07_middle", "Its second page")})
         swapped = COURSE.replace("07_middle", "28_more").replace("27_later", "07_middle").replace("28_more", "27_later")
         for says, table in (
                 ("27_later stands in it 0 times; accepted: once", COURSE.replace("27_later", "28_more")),

@@ -54,7 +54,7 @@ const std::vector<tutorial::Exercise> exercises{
                     touching = symmetric_eigenvalues(p.f(set, set)).maxCoeff();
        report.claim(touching < all / 2,
                     "the largest eigenvalue of the touching points is {:.2f} of that of "
-                    "all: steps up to {:.1f} times as long are safe",
+                    "all: once these are known, steps up to {:.1f} times as long are safe",
                     touching / all, all / touching);
      }}};
 

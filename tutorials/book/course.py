@@ -86,7 +86,9 @@ class Part:
                         if name == place or (chapter == place and name not in placed)}
                  for part in others}
         self.pages = list(pages[self])
-        self.second = {name: title_of(pages[self][name]) for name in self.chapters if book[name][0] != name}
+        # of a second page that stands here: its chapter and its title
+        self.second = {name: (book[name][0], title_of(pages[self][name]))
+                       for name in self.chapters if book[name][0] != name}
         self.minutes = {name: minutes(lines) for name, lines in pages[self].items()}
         self.total = sum(self.minutes.values())
         known = {name[:2] for part in others if part is self or part.kind == "course" for name in part.chapters}
@@ -166,7 +168,8 @@ def sorted_readme(text, parts):
         lines += [f"### {title}", "", *textwrap.wrap(f"{part.about} {time}{part.relation()}", width=132), ""]
         for name in part.chapters:
             if name not in entries and name in part.second:
-                lines.append(f"- {name[:2]}, second page: {part.second[name]}")
+                chapter, title = part.second[name]
+                lines.append(f"- [{name[:2]}, second page: {title}]({chapter}/{chapter}.cpp)")
                 continue
             if name not in entries:
                 raise BookError(f"tutorials/README.md: no entry for {name} under \"All chapters\"")
