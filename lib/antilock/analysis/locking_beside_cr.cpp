@@ -37,7 +37,6 @@ LockingReport locking_beside_cr(
     const VariationalInequality at_rest = with_layer_at_rest(problem, on);
     return energy(at_rest, solver(at_rest));
   };
-  constexpr double telling_share = 0.25;
   LockingReport report;
   report.diagnosis = std::move(diagnosis);
   double kept = 0;

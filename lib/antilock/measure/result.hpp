@@ -23,23 +23,23 @@ struct RunSeconds {
 /// analysis/locking_loss.hpp).
 struct LockingReport {
   std::string diagnosis;  ///< one line: whether the element locks in the layer, and why
-  /// The share of LockingLoss::lower_bound. It is empty in four cases: nothing can lock;
-  /// locking_loss throws; it is not called, on tetrahedra and for two bodies; or locking is not
-  /// proved, which means that `estimate` is at least 5 %
-  /// (`significance`) but the share of the lower bound is below 5 %.
+  /// The share of LockingLoss::lower_bound, on tetrahedra that of LossBesideColumns. It is empty in
+  /// four cases: nothing can lock; the function that computes it throws; it is not called, as for
+  /// two bodies; or locking is not proved, which means that `estimate` is at least 5 %
+  /// (`significance`, on tetrahedra telling_share) but the share of the lower bound is below it.
   std::optional<double> lost = {};
-  /// Empty if `estimate` is below 5 %, or below a quarter where it is that of locking_beside_cr.
-  /// Otherwise it is one sentence that contains "locks", the share, its origin and the remedies. The share is
-  /// rounded down to whole per cent, and is at most 99 %. The origin is "proved", or, if `lost` is
-  /// empty, a second solve. This is the one for v in locking_loss, where the layer has columns of
-  /// its own, or that of Crouzeix-Raviart. On a large mesh of tetrahedra (report_locking) the
-  /// sentence has no share.
+  /// Empty if `estimate` is below 5 %, or below a quarter on tetrahedra and for two bodies.
+  /// Otherwise it is one sentence that contains "locks", the share, its origin and the remedies.
+  /// The share is rounded down to whole per cent, and is at most 99 %. The origin is "proved", or,
+  /// if `lost` is empty, a second solve. This is the one for v in locking_loss or in
+  /// loss_beside_columns, where the layer has columns of its own, or that of Crouzeix-Raviart. On a
+  /// large mesh of tetrahedra (report_locking) the sentence has no share.
   std::string warning = {};
-  /// The share of LockingLoss::estimate, or that of locking_beside_cr, on tetrahedra and for two
-  /// bodies; 0 where neither was called, and where it throws.
+  /// The share of LockingLoss::estimate or LossBesideColumns::estimate, or that of
+  /// locking_beside_cr, as for two bodies; 0 where none was called, and where it throws.
   double estimate = 0;
-  /// The energy that the layer's motion releases: LockingLoss::reference, or R_CR
-  /// (analysis/locking_beside_cr.hpp).
+  /// The energy that the layer's motion releases: LockingLoss::reference,
+  /// LossBesideColumns::reference, or R_CR (analysis/locking_beside_cr.hpp).
   double reference = 0;
 
   /// Returns one line for a program to print: the warning, or the diagnosis if there is no warning.

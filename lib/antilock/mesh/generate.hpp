@@ -17,6 +17,11 @@ struct Domain {
   CellKind kind = CellKind::triangle;  ///< the cells of the mesh
 };
 
+/// The largest numbers of cells per unit side, of structured and of unstructured meshes.
+inline constexpr int most_structured = 2048, most_unstructured = 512;
+/// The same for tetrahedra.
+inline constexpr int most_structured_in_space = 128, most_unstructured_in_space = 64;
+
 /// Throws Error unless 1 <= cells <= most and 0 <= layer_depth <= 1.
 void check_mesh_request(int cells, int most, const Domain& domain);
 

@@ -16,7 +16,7 @@ std::vector<double> spaced(int n, bool shifted) {
 /// `strips` of triangles with a side of 1/cells in the layer, across or upright; each vertex of
 /// Sigma has a line of the body's squares above it.
 TriangleMesh lattice(int cells, int strips, bool upright) {
-  check_mesh_request(cells, 2048, {});
+  check_mesh_request(cells, most_structured, {});
   check_mesh_request(strips, 4096, {});
   std::vector<Eigen::RowVector2d> vertices;
   std::vector<std::vector<int>> lines;  // from Gamma_C upwards, or from left to right

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -145,22 +146,38 @@ std::vector<int> surfaces_of(const std::vector<Region>& region) {
   return surface;
 }
 
+/// The vertices of a row of indices as columns (d x k).
+template <int d, int k>
+Eigen::Matrix<double, d, k> places(const Mesh& mesh, const int* vertices) {
+  Eigen::Matrix<double, d, k> columns;
+  for (int i = 0; i < k; ++i)
+    columns.col(i) =
+        Eigen::Map<const Eigen::Matrix<double, d, 1>>(mesh.vertices.data() + d * vertices[i]);
+  return columns;
+}
+
+/// Whether a simplex is flat up to round-off: at each vertex the determinant of the edges there is
+/// at most 1e-14 of the product of their lengths. In the plane this quotient is the sine of the
+/// angle. The round-off of the determinant is some 1e-16 of the product. A thin simplex is not flat
+/// by this measure, because at one of its vertices the edges are nearly perpendicular.
+template <CellKind kind>
+bool is_flat(const Mesh& mesh, int t) {
+  constexpr int d = reference_cell(kind).dimension;
+  const auto x = places<d, d + 1>(mesh, mesh.triangles.data() + (d + 1) * t);
+  for (int i = 0; i <= d; ++i) {
+    Eigen::Matrix<double, d, d> along;
+    for (int k = 0; k < d; ++k) along.col(k) = x.col(k < i ? k : k + 1) - x.col(i);
+    if (std::abs(along.determinant()) > 1e-14 * along.colwise().norm().prod()) return false;
+  }
+  return true;
+}
+
 void check_cells(const Mesh& mesh, const std::string& where) {
-  const ReferenceCell& cell = mesh.reference();
-  const bool in_space = cell.dimension == 3;
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    double longest = 0;
-    for (int i = 0; i < cell.edges; ++i) {
-      const int a = mesh.triangles(t, cell.edge[i][0]), b = mesh.triangles(t, cell.edge[i][1]);
-      longest = std::max(longest, (mesh.vertices.row(a) - mesh.vertices.row(b)).squaredNorm());
-    }
-    // the determinant of the edges at a vertex; below 1e-14 its sign is round-off
-    const double determinant = (in_space ? 6 : 2) * mesh.measure(t);
-    const double box = in_space ? longest * std::sqrt(longest) : longest;
-    if (!(std::abs(determinant) > 1e-14 * box))
+  const bool in_space = mesh.dimension() == 3;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (in_space ? is_flat<CellKind::tetrahedron>(mesh, t) : is_flat<CellKind::triangle>(mesh, t))
       refuse<MeshError>(where, "degenerate {}: its {} is zero", cell_text(mesh, t),
                         in_space ? "volume" : "area");
-  }
 }
 
 /// Tags sit on the boundary and on Sigma: only those facets need to be found.
@@ -369,16 +386,6 @@ void number_facets(Mesh& mesh, const std::string& where) {
                  facet_text(mesh, e));
       });
   mesh.edge_triangles.conservativeResize(mesh.edges.rows(), 2);
-}
-
-/// The vertices of a row of indices as columns (d x k).
-template <int d, int k>
-Eigen::Matrix<double, d, k> places(const Mesh& mesh, const int* vertices) {
-  Eigen::Matrix<double, d, k> columns;
-  for (int i = 0; i < k; ++i)
-    columns.col(i) =
-        Eigen::Map<const Eigen::Matrix<double, d, 1>>(mesh.vertices.data() + d * vertices[i]);
-  return columns;
 }
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

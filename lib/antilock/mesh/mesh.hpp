@@ -147,11 +147,11 @@ double body_size(const Mesh& mesh);
 /// a generator).
 ///
 /// Throws Error for indices out of range, values that are not finite, a single inverted cell,
-/// degenerate cells (the determinant of their edges below 1e-14 times that of a cube with the
-/// longest edge), unused vertices, two vertices at one place unless they are on facets of two named
-/// groups, facets of three cells or of overlapping ones, boundary facets without a tag (as at a
-/// hanging node), tagged facets that are no facet of the mesh, a mesh without a body, and a mesh
-/// without a facet that is clamped or in a named group.
+/// degenerate cells (at each vertex the determinant of the edges there is at most 1e-14 times the
+/// product of their lengths; a thin cell is none), unused vertices, two vertices at one place
+/// unless they are on facets of two named groups, facets of three cells or of overlapping ones,
+/// boundary facets without a tag (as at a hanging node), tagged facets that are no facet of the
+/// mesh, a mesh without a body, and a mesh without a facet that is clamped or in a named group.
 Mesh make_mesh(Points vertices, IndexRows cells, std::vector<Region> region,
                const std::vector<TaggedEdge>& tagged_edges, const std::string& where,
                const std::vector<int>& surface = {});

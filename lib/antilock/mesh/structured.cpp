@@ -76,14 +76,15 @@ Mesh cut_boxes(const std::vector<double>& x, const std::vector<double>& z) {
 }  // namespace
 
 TriangleMesh structured_mesh(int cells, const Domain& domain, Diagonal diagonal) {
-  check_mesh_request(cells, domain.kind == CellKind::tetrahedron ? 128 : 2048, domain);
+  const bool in_space = domain.kind == CellKind::tetrahedron;
+  check_mesh_request(cells, in_space ? most_structured_in_space : most_structured, domain);
   const double depth = domain.layer_depth;
   const int layer_rows = depth > 0 ? std::max(2, static_cast<int>(std::lround(depth * cells))) : 0;
   std::vector<double> x, y;
   for (int i = 0; i <= cells; ++i) x.push_back(static_cast<double>(i) / cells);
   for (int j = layer_rows; j > 0; --j) y.push_back(-depth * j / layer_rows);
   y.insert(y.end(), x.begin(), x.end());
-  if (domain.kind == CellKind::tetrahedron) return cut_boxes(x, y);
+  if (in_space) return cut_boxes(x, y);
   if (domain.kind == CellKind::quadrilateral) return rectangles(x, y);
   return tensor_mesh(x, y, diagonal);
 }

@@ -6,14 +6,14 @@
 
 namespace antilock {
 
-/// A submesh: some triangles of a mesh, with the old numbers of its vertices. An edge at which the
-/// mesh is cut becomes clamped, except for the edges of Sigma, between body and layer. They get the
-/// tag contact.
+/// A submesh: some cells of a mesh, with the old numbers of its vertices. A facet at which the mesh
+/// is cut becomes clamped, except for the facets of Sigma, between body and layer. They get the tag
+/// contact. make_mesh refuses quadrilaterals.
 struct Submesh {
   TriangleMesh mesh;
   std::vector<int> old_vertex;
 };
-Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)>& selected);
+Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int cell)>& selected);
 /// Returns the mesh of the body alone; a mesh without a layer is returned unchanged.
 TriangleMesh body_submesh(const TriangleMesh& mesh);
 

@@ -141,7 +141,7 @@ TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
   if (domain.kind == CellKind::quadrilateral)
     throw Error("mesh: an unstructured mesh of quadrilaterals; accepted: triangles or tetrahedra");
   const bool in_space = domain.kind == CellKind::tetrahedron;
-  check_mesh_request(cells, in_space ? 64 : 512, domain);
+  check_mesh_request(cells, in_space ? most_unstructured_in_space : most_unstructured, domain);
   const double depth = domain.layer_depth, h = 1.0 / cells,
                h_layer = depth > 0 ? std::min(h, depth / 2) : h;
   // gmsh's seconds grow faster than its triangles: 0.5 s at 64 cells, 4 at 128, 28 at 256

@@ -135,16 +135,17 @@ bool springs_alone_hold_a_component(const TriangleMesh& mesh) {
 /// they are 1e20 times the softest stiffness: the rounding of a row is then no longer small beside
 /// it.
 void add_springs(VariationalInequality& problem, const std::vector<WeightedFactoredForm>& springs,
-                 const StiffnessRange& range) {
+                 const StiffnessRange& range, const TriangleMesh& mesh) {
   for (const WeightedFactoredForm& rows : springs) {
     if (rows.stiffness.size() == 0) continue;
     const double largest = rows.form.m.cwiseProduct(rows.stiffness).maxCoeff();
     if (largest > 1e20 * range.softest())
       throw Error(
-          fmt::format("spring: its stiffness times the length of an edge is {:.3g}, and the "
+          fmt::format("spring: its stiffness times the {} is {:.3g}, and the "
                       "softest stiffness is "
                       "{:.3g}; accepted: up to 1e20 times as much, or a displacement",
-                      largest, range.softest()));
+                      mesh.dimension() == 2 ? "length of an edge" : "area of a face", largest,
+                      range.softest()));
     if (range.fits_in_a1(largest))
       problem.a1 += gram_matrix(rows);
     else
@@ -354,7 +355,7 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
     problem.a1 += ventcel_form(space, dirichlet_vertex_values(scene, mesh));
   if (stiff != nullptr) add_layer(problem, *stiff, space, range);
   if (!in_rows.empty()) range.append(problem, gradient_rows(space, in_rows));
-  add_springs(problem, springs, range);
+  add_springs(problem, springs, range, mesh);
 
   add_load_and_bounds(problem, scene, space);
   return problem;

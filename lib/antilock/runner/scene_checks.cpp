@@ -290,7 +290,25 @@ std::string place_on_contact(const Position& x) {
   return fmt::format("{:.6g}", fmt::join(x.data(), x.data() + x.size() - 1, ", "));
 }
 
+/// The edges of a mesh in space at which a face of Gamma_C meets a face with a given u, with the
+/// number of the latter.
+std::vector<FacetEdge> held_edges_of_contact(const Mesh& mesh) {
+  std::set<std::pair<int, int>> of_contact;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    for (int i = 0; i < 3; ++i)
+      of_contact.insert(std::minmax({mesh.edges(e, i), mesh.edges(e, (i + 1) % 3)}));
+  }
+  std::vector<FacetEdge> edges = dirichlet_edges(mesh);
+  std::erase_if(edges, [&](const FacetEdge& edge) {
+    return of_contact.count(std::minmax({edge.from, edge.to})) == 0;
+  });
+  return edges;
+}
+
 /// The gap and the ceiling along Gamma_C are finite, and leave room for u, also where u is given.
+/// In space u is given along edges of Gamma_C, and not at their ends alone: a function of finite
+/// energy has no jump along a part of an edge.
 void check_contact_on_mesh(const SceneFile& file, const Mesh& mesh) {
   const UnilateralContact& contact = *file.scene.contact();
   const auto& [gap, zero_at, upper_obstacle] = contact;
@@ -309,22 +327,30 @@ void check_contact_on_mesh(const SceneFile& file, const Mesh& mesh) {
       }
     }
   }
+  const auto require_room = [&](const Position& x, double u, const Position& middle) {
+    const double scale = std::max(largest, std::abs(u));
+    const double round_off =
+        std::min(1e-12 * std::max(1.0, std::abs(profile_value(gap, middle))), 1e-6 * scale);
+    for (const auto& [name, bound, sign] :
+         {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
+      if (*bound && sign * u > profile_value(*bound, x) + round_off)
+        throw InputError(fmt::format(
+            "{0}: contact.{1}: {1}({2}) = {3:.6g}, but u = {4:.6g} is prescribed there; "
+            "accepted: {1} >= {5}u where Gamma_C meets {6} with a given u",
+            file.name, name, place_on_contact(x), profile_value(*bound, x), u, sign < 0 ? "-" : "",
+            in_space ? "a face" : "an edge"));
+  };
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     const Position middle = mesh.vertices(mesh.edges.row(e), Eigen::indexing::all).colwise().mean();
-    for (const int v : mesh.edges.row(e)) {
-      const Position x = mesh.vertices.row(v);
-      const double scale = std::max(largest, std::abs(values(v)));
-      const double round_off =
-          std::min(1e-12 * std::max(1.0, std::abs(profile_value(gap, middle))), 1e-6 * scale);
-      for (const auto& [name, bound, sign] :
-           {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
-        if (*bound && sign * values(v) > profile_value(*bound, x) + round_off)
-          throw InputError(fmt::format(
-              "{0}: contact.{1}: {1}({2}) = {3:.6g}, but u = {4:.6g} is prescribed there; "
-              "accepted: {1} >= {5}u where Gamma_C meets {6} with a given u",
-              file.name, name, place_on_contact(x), profile_value(*bound, x), values(v),
-              sign < 0 ? "-" : "", in_space ? "a face" : "an edge"));
+    for (const int v : mesh.edges.row(e)) require_room(mesh.vertices.row(v), values(v), middle);
+  }
+  if (!in_space) return;
+  for (const auto& [facet, from, to] : held_edges_of_contact(mesh)) {
+    const Position start = mesh.vertices.row(from), along = mesh.vertices.row(to) - start;
+    for (int i = 1; i < parts; ++i) {
+      const Position x = start + along * i / parts;
+      require_room(x, prescribed_on(file.scene, mesh, facet, x), start + along / 2);
     }
   }
 }

@@ -15,6 +15,7 @@
 #include "antilock/core/number.hpp"
 #include "antilock/core/plain_text.hpp"
 #include "antilock/measure/point_values.hpp"
+#include "antilock/mesh/generate.hpp"
 #include "antilock/runner/expression.hpp"
 #include "antilock/runner/obstacle_check.hpp"
 #include "antilock/runner/scene_keys.hpp"
@@ -536,10 +537,6 @@ SceneModel read_model(const Section& section, const std::optional<UnilateralCont
   return read_coating(section, contact, *stiff);
 }
 
-/// The largest numbers of cells per unit side; those in space are of mesh/generate.hpp, too.
-constexpr int most_structured = 2048, most_unstructured = 512;
-constexpr int most_structured_in_space = 128, most_unstructured_in_space = 64;
-
 int most_cells(const MeshRequest& mesh) {
   const bool in_space = mesh.dimension == 3;
   if (mesh.kind == "structured") return in_space ? most_structured_in_space : most_structured;
@@ -642,9 +639,10 @@ void check_in_space(const Section& root) {
     if (method.has(key)) refuse(std::string("method.") + key, "an accuracy", "none");
   const std::string element = method.one_of("element"), solver = method.one_of("solver");
   const std::string quoted = "\"" + element + "\"";
+  const bool contact = root.has("contact");
   if (element != "P1" && element != "P2" && element != "CR")
-    refuse("method.element", quoted, "\"P1\", \"P2\", \"CR\"");
-  if (element == "P2" && root.has("contact"))
+    refuse("method.element", quoted, contact ? "\"P1\", \"CR\"" : "\"P1\", \"P2\", \"CR\"");
+  if (element == "P2" && contact)
     root.refuse("method.element",
                 "\"P2\" on tetrahedra does not go with a contact, since its forces at vertices are "
                 "no pressures; accepted: \"P1\", \"CR\"");

@@ -26,6 +26,10 @@ namespace {
 /// of the depth of the layer: mesh generators place corners to 1e-12 of it, formats with few digits
 /// to 1e-8.
 constexpr double slack = 1e-6;
+/// How far the depth and the measure of a layer may be from those of the scene, as a share of them.
+/// A layer may be thinner than `slack` of the body, and a wrong depth changes its stiffness by the
+/// same share.
+constexpr double layer_slack = 1e-3;
 
 /// A part of a mesh: its bounding box, with z = 0 in the plane, and its measure.
 struct Extent {
@@ -140,14 +144,15 @@ void check_layer(const Mesh& mesh, const Extent& sigma, double depth) {
   const double size = body_size(mesh), height = std::max(size, depth);
   const Eigen::Vector3d off = (low - lowest).cwiseAbs().cwiseMax((high - highest).cwiseAbs());
   const double beside = off.head(up).maxCoeff(), below = off(up);
-  const double unfilled = std::abs(measure - sigma.size * depth);
-  if (beside <= slack * size && below <= slack * height && unfilled <= height * facet_slack(mesh))
+  const double wanted = sigma.size * depth, unfilled = std::abs(measure - wanted);
+  if (beside <= slack * size && below <= std::min(slack * height, layer_slack * depth) &&
+      unfilled <= std::min(height * facet_slack(mesh), layer_slack * wanted))
     return;
   throw Error(fmt::format(
       "the group layer spans {} with {} {:.6g}; accepted for this scene: the {} below the body's "
       "{}, {}, filled ({} {:.6g})",
       box_text(low, high, mesh.dimension()), words.extent, measure, words.strip, words.bottom,
-      box_text(lowest, highest, mesh.dimension()), words.extent, sigma.size * depth));
+      box_text(lowest, highest, mesh.dimension()), words.extent, wanted));
 }
 
 /// The contact facets lie on the lower side, all of it.

@@ -48,6 +48,7 @@ class EigenCholesky final : public SparseCholesky {
     return l().cols() > 0 ? l().diagonal().cwiseAbs2().minCoeff()
                           : std::numeric_limits<double>::infinity();
   }
+  double entries() const override { return static_cast<double>(l().nonZeros()); }
   Eigen::VectorXd forward(const Eigen::VectorXd& r) const override {
     return factor_.matrixL().solve(Eigen::VectorXd(order_ * r));
   }

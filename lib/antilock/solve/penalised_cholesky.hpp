@@ -57,6 +57,7 @@ class PenalisedCholesky {
   /// Returns the smallest pivot of K: an upper bound, and a heuristic estimate, of its smallest
   /// eigenvalue (sparse_cholesky.hpp).
   double smallest_pivot() const { return factor_.cholesky().smallest_pivot(); }
+  double entries() const { return factor_.cholesky().entries(); }  ///< of the factor
   /// Returns K^-1 r (n_free). With sparse, the result solves the system restricted to the unknowns
   /// that are not constrained, and is 0 at the others.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_.solve(r); }

@@ -31,6 +31,9 @@ class SparseCholesky {
   /// is a heuristic: for an L with ones on its diagonal and -1 everywhere below, all pivots are 1,
   /// and the smallest eigenvalue falls exponentially with n_free.
   virtual double smallest_pivot() const = 0;
+  /// Returns the number of stored entries of L, which may contain zeros. It is known once K has
+  /// been analysed.
+  virtual double entries() const = 0;
   virtual Eigen::VectorXd forward(const Eigen::VectorXd& r) const = 0;  ///< y = L^-1 P r
   virtual Eigen::VectorXd backward(Eigen::VectorXd y) const = 0;        ///< x = P' L'^-1 y
   /// Returns the rows and columns of L from position `first` on: a lower triangular block.
@@ -41,9 +44,10 @@ class SparseCholesky {
 using CholeskyMaker = std::unique_ptr<SparseCholesky> (*)();
 
 /// Returns CHOLMOD's supernodal factor, which works on a BLAS. Where rows must stay last, CAMD
-/// orders the others (a minimum degree ordering under that constraint). Otherwise CHOLMOD chooses
-/// between AMD and METIS. A browser has neither CHOLMOD nor a BLAS. There this function returns
-/// Eigen's factor (tutorials/book/wasm/host), and results agree up to round-off.
+/// orders the others (a minimum degree ordering under that constraint), or METIS where the factor
+/// is large. Otherwise CHOLMOD chooses between AMD and METIS. A browser has neither CHOLMOD nor a
+/// BLAS. There this function returns Eigen's factor (tutorials/book/wasm/host), and results agree
+/// up to round-off.
 std::unique_ptr<SparseCholesky> default_cholesky();
 
 /// A symmetric positive definite K (n_free x n_free) and its factor on the unknowns that are not

@@ -6,6 +6,7 @@
 
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/labelled_edges.hpp"
+#include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/write_msh.hpp"
 #include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
@@ -203,6 +204,43 @@ TEST(ReadTetrahedra, RefusesAHangingVertex) {
   expect_refused(
       [&] { make_mesh(vertices, cells, std::vector<Region>(4, Region::body), sides, "input"); },
       "hangs on the face");
+}
+
+/// The mesh with other vertices, checked anew.
+Mesh with_vertices(const Mesh& mesh, const Points& vertices) {
+  std::vector<TaggedEdge> tagged;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] != EdgeTag::interior)
+      tagged.push_back({mesh.edges(e, 0), mesh.edges(e, 1), mesh.edges(e, 2), mesh.edge_tag[e]});
+  return make_mesh(vertices, mesh.triangles, mesh.region, tagged, "input");
+}
+
+// Needles and thin cells are well formed: at one of their vertices the edges are perpendicular.
+TEST(ReadTetrahedra, TakesThinCellsInAnyUnit) {
+  const Mesh mesh = structured_mesh(2, {1, CellKind::tetrahedron});
+  for (const double unit : {1e-9, 1.0, 1e9})
+    for (const double stretch : {1e-12, 1e-9, 1.0, 1e9, 1e12}) {
+      Points vertices = unit * mesh.vertices;
+      vertices.col(2) *= stretch;
+      const Mesh thin = with_vertices(mesh, vertices);
+      EXPECT_EQ(thin.triangles, mesh.triangles) << unit << " " << stretch;
+    }
+  // a body in nanometres on a layer of the depth 1 in 16 rows
+  Mesh body = structured_mesh(4, {0, CellKind::tetrahedron});
+  body.vertices *= 1e-9;
+  EXPECT_EQ(extruded(body, 4e-9).triangle_count(), body.triangle_count() + 3 * 16 * 32);
+}
+
+TEST(ReadTetrahedra, RefusesFlatCellsInAnyUnit) {
+  for (const double unit : {1e-9, 1.0, 1e9})
+    for (const Points& corner : {Points{{0.3, 0.3, 0}}, Points{{0.3, 0.3, 1e-15}},
+                                 Points{{1, 1, 1e-15}}, Points{{0.5, 0.5, 0}}}) {
+      Points vertices(4, 3);
+      vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, corner;
+      const IndexRows cells{{0, 1, 2, 3}};
+      expect_refused([&] { make_mesh(unit * vertices, cells, {Region::body}, {}, "input"); },
+                     "its volume is zero");
+    }
 }
 
 }  // namespace antilock::test::mesh_test::read_tetrahedra_test

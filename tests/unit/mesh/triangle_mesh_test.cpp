@@ -109,6 +109,15 @@ TEST(TriangleMesh, RefusesWhatIsNoMesh) {
   refused("no triangle is in the group body", [](I& i) { i.region.assign(2, Region::layer); });
 }
 
+// A thin triangle has a right angle. Its height is 1e-16 of its length.
+TEST(TriangleMesh, TakesAThinTriangleAndNoFlatOne) {
+  Input input;
+  input.vertices.col(1) *= 1e-16;
+  EXPECT_NO_THROW(input.make());
+  input.vertices.row(2) << 2, 1e-16;  // the triangle 0, 1, 2 has the angles 0, 180 and 0 degrees
+  input.refused("degenerate");
+}
+
 TEST(TriangleMesh, AcceptsACrackWhoseFacesAreInTwoNamedGroups) {
   Input input;
   input.add_vertex(1, 1), input.add_vertex(0, 0);

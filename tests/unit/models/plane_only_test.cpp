@@ -30,7 +30,6 @@
 #include "antilock/measure/residual.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/refine.hpp"
-#include "antilock/mesh/submesh.hpp"
 #include "antilock/mesh/two_bodies.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plane_strain.hpp"
@@ -75,8 +74,6 @@ TEST(PlaneOnly, ChangesOfAMesh) {
   const Mesh mesh = body_and_layer();
   Mesh copy = mesh;
   expect_refused([&] { refined(mesh); }, triangles);
-  expect_refused([&] { submesh(mesh, [](int) { return true; }); }, triangles);
-  expect_refused([&] { body_submesh(mesh); }, triangles);
   expect_refused([&] { bisected(mesh, std::vector<bool>(mesh.triangle_count())); }, triangles);
   expect_refused([&] { longest_edge_first(mesh); }, triangles);
   expect_refused([&] { resolve_load(copy, no_load, 1000); }, triangles);

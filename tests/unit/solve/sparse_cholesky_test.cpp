@@ -75,6 +75,42 @@ TEST_P(CholeskyOf, NamesARowOfThePieceThatFloatsAndRecovers) {
   }
 }
 
+// In space the factor is so large that METIS orders it.
+TEST(DefaultCholesky, LeavesTheLastRowsLastOfALargeFactor) {
+  const Space space(structured_mesh(24, {1, CellKind::tetrahedron}), p1(CellKind::tetrahedron));
+  const VariationalInequality problem = stiff_problem(space, 0.1);
+  const SparseMatrix k = penalised_matrix(problem, DofOrdering(problem), 1e-2);
+  const int size = static_cast<int>(k.cols()), last = 4;
+  const auto factor = default_cholesky();
+  factor->analyse(k, last);
+  ASSERT_FALSE(factor->factorise(k));
+  Eigen::Matrix4d of_inverse;  // (K^-1) of the last rows and columns
+  for (int i = 0; i < last; ++i) {
+    const Eigen::VectorXd r = Eigen::VectorXd::Unit(size, size - last + i);
+    const Eigen::VectorXd x = factor->backward(factor->forward(r));
+    // backward stable, and |K| |x| is at most some 1e3 here
+    EXPECT_LT((k.selfadjointView<Eigen::Upper>() * x - r).norm(), 1e-11);
+    of_inverse.col(i) = x.tail(last);
+  }
+  const Eigen::MatrixXd l = factor->trailing_block(size - last);
+  EXPECT_TRUE((l * l.transpose() * of_inverse).isIdentity(1e-9));
+  // CAMD alone leaves 1.0e7
+  EXPECT_LT(factor->entries(), 9e6);
+}
+
+// CHOLMOD stores zeros in its supernodes: all entries of the triangle at most.
+TEST_P(CholeskyOf, CountsItsEntries) {
+  SparseMatrix k = two_strings(64, false);
+  const auto factor = GetParam()();
+  factor->analyse(k, 0);
+  ASSERT_FALSE(factor->factorise(k));
+  EXPECT_GE(factor->entries(), 128 + 126);  // each string of 64 has 63 entries below the diagonal
+  EXPECT_LE(factor->entries(), 128 * 129 / 2);
+  if (GetParam() == &eigen_cholesky) {
+    EXPECT_EQ(factor->entries(), 128 + 126);
+  }
+}
+
 TEST_P(CholeskyOf, SmallestPivotIsThatOfTheElimination) {
   SparseMatrix k(3, 3);
   for (const int i : {0, 1, 2}) k.insert(i, i) = std::pow(10, -i);
