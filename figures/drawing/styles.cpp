@@ -161,6 +161,11 @@ const Row rows[] = {
     {"strong scaling", "one mesh, more ranks", "", {blue, circle, 9}},
     {"weak scaling", "as many unknowns per rank", "", {green, diamond, 6}},
     {"columns cut", "one mesh, columns cut", "", {vermillion, square, 7}},
+    // subdomains and coarse space of a preconditioner
+    {"patches", "small patches", "", {vermillion, square, 10}},
+    {"patches and hats", "small patches and hats", "", {olive, down_triangle, 6}},
+    {"strips", "strips", "", {purple, triangle, 8}},
+    {"strips and hats", "strips and hats", "", {blue, circle, 6}},
     // estimates and what they estimate
     {"estimate $h = 1/8$", "estimate, $h = 1/8$", "", {vermillion, square, 9}},
     {"estimate $h = 1/32$", "estimate, $h = 1/32$", "", {olive, down_triangle, 5}},
@@ -179,6 +184,10 @@ const Row rows[] = {
     {"epsilon 1e-06", "$ε = 10^{−6}$", "", {red, square, 10}},
     {"epsilon 0", "$ε = 0$", "", {black, square, 10}},
     // panels alone
+    {"delta 1", "$δ = 1$", "", {grey, circle, 5}},
+    {"delta 0.01", "$δ = 10^{−2}$", "", {green, diamond, 7}},
+    {"delta 0.0001", "$δ = 10^{−4}$", "", {purple, triangle, 8}},
+    {"delta 1e-06", "$δ = 10^{−6}$", "", {red, square, 10}},
     {"structured", "structured mesh", "structured", {blue, circle, 6}},
     {"unstructured", "unstructured mesh", "unstructured", {vermillion, square, 6}},
     {"layered", "layered mesh", "layered", {olive, down_triangle, 6}},

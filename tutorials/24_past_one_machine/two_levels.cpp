@@ -176,7 +176,8 @@ class Cycle {
  public:
   Cycle(const System& system, const TwoLevels& choice, int cells) : a_(system.a) {
     const TriangleMesh& mesh = system.space.mesh();
-    sets_ = choice.strips ? strips_of_layer(system, cells, growth) : patches_of_layer(system);
+    sets_ =
+        choice.strips ? strips_of_layer(system, cells, growth) : patches_of_layer(system);
     for (const Rows& set : sets_)
       factors_.push_back(std::make_unique<Factor>(submatrix(a_, set)));
     for (int e = 0; e < mesh.edge_count(); ++e)
@@ -249,6 +250,94 @@ class Cycle {
   double damping_ = 1;
 };
 
+/// A drawing as figures/pictures/domain.cpp reads it: one row per corner, and the first word
+/// of a name chooses the colour.
+struct Drawing {
+  Table table = Table({"kind", "name", "label", "x", "y"});
+  void points(const std::string& kind, const std::string& name,
+              const std::vector<Eigen::RowVector2d>& corners) {
+    for (const auto& corner : corners) table.add({kind, name, "", corner(0), corner(1)});
+  }
+  void label(const std::string& name, const std::string& text,
+             const Eigen::RowVector2d& at) {
+    table.add({"label", name, text, at(0), at(1)});
+  }
+};
+
+/// Per triangle: whether the set has all of its edges that are not clamped.
+std::vector<char> triangles_of(const System& system, const Rows& set) {
+  const TriangleMesh& mesh = system.space.mesh();
+  std::vector<char> is_in(system.a.rows(), 0);
+  for (const int row : set) is_in[row] = 1;
+  std::vector<char> has(mesh.triangle_count(), 1);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (const int e : mesh.triangle_edges.row(t))
+      if (system.row[e] >= 0 && is_in[system.row[e]] == 0) has[t] = 0;
+  return has;
+}
+
+std::vector<Eigen::RowVector2d> corners_of(const TriangleMesh& mesh, int triangle) {
+  std::vector<Eigen::RowVector2d> corners;
+  for (const int v : mesh.triangles.row(triangle)) corners.push_back(mesh.vertices.row(v));
+  return corners;
+}
+
+/// The triangles of the layer and of the body near it: in one colour those that the second
+/// of three strips has alone, in another those that it shares with a neighbour, and in a
+/// third those of the neighbours.
+void draw_triangles(Drawing& drawing, const System& system,
+                    const std::vector<Rows>& strips) {
+  const TriangleMesh& mesh = system.space.mesh();
+  std::vector<std::vector<char>> in_strip;
+  for (const Rows& strip : strips) in_strip.push_back(triangles_of(system, strip));
+  std::vector<char> is_drawn(mesh.edge_count(), 0);
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const std::vector<Eigen::RowVector2d> corners = corners_of(mesh, t);
+    if (std::min({corners[0](1), corners[1](1), corners[2](1)}) > 0.13) continue;
+    const bool beside = in_strip[0][t] != 0 || in_strip[2][t] != 0;
+    std::string colour = beside ? "tied0" : "body";
+    if (in_strip[1][t] != 0) colour = beside ? "tied3" : "tied1";
+    drawing.points("fill", colour + " " + std::to_string(t), corners);
+    for (const int e : mesh.triangle_edges.row(t)) is_drawn[e] = 1;
+  }
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (is_drawn[e] == 0) continue;
+    std::string colour = "axis";
+    if (mesh.edge_tag[e] == EdgeTag::sigma) colour = "sigma";
+    if (mesh.edge_tag[e] == EdgeTag::contact) colour = "contact";
+    drawing.points(
+        "line", colour + " " + std::to_string(e),
+        {mesh.vertices.row(mesh.edges(e, 0)), mesh.vertices.row(mesh.edges(e, 1))});
+  }
+}
+
+/// The triangles of one small patch, with an arrow to them.
+void draw_patch(Drawing& drawing, const TriangleMesh& mesh) {
+  const Eigen::RowVector2d place(0.13, -0.5);
+  Eigen::Index vertex = 0;
+  (mesh.vertices.rowwise() - place).rowwise().squaredNorm().minCoeff(&vertex);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if ((mesh.triangles.row(t).array() == static_cast<int>(vertex)).any())
+      drawing.points("fill", "contact " + std::to_string(t), corners_of(mesh, t));
+  drawing.points("arrow", "", {{-0.06, -0.5}, {0.1, -0.5}});
+  drawing.label("", "patch", {-0.18, -0.5});
+}
+
+/// The smallest and the largest x of the unknowns of a set that lie in the layer.
+std::pair<double, double> extent_in_layer(const System& system, const Rows& set) {
+  std::vector<char> is_in(system.a.rows(), 0);
+  for (const int row : set) is_in[row] = 1;
+  double left = 1;
+  double right = 0;
+  for (int e = 0; e < system.space.size(); ++e) {
+    const auto place = system.space.dof_coordinates().row(e);
+    if (system.row[e] < 0 || is_in[system.row[e]] == 0 || place(1) > 0) continue;
+    left = std::min(left, place(0));
+    right = std::max(right, place(0));
+  }
+  return {left, right};
+}
+
 }  // namespace
 
 int iterations_of(const TwoLevels& choice, const TriangleMesh& mesh, int cells,
@@ -298,46 +387,56 @@ Table iterations_table(const std::vector<TwoLevels>& choices, const std::vector<
   return table;
 }
 
-void write_parts(const std::filesystem::path& folder) {
-  constexpr int cells = 32;
-  const System system(mesh_without_columns(cells), 1);
-  const TriangleMesh& mesh = system.space.mesh();
-  std::vector<double> in_patch(system.a.rows(), 0);
-  std::vector<double> in_strip(system.a.rows(), 0);
-  const std::vector<Rows> patches = patches_of_layer(system);
-  for (const int row : patches[patches.size() / 2]) in_patch[row] = 1;
-  const Rows strip = strips_of_layer(system, cells, 0).front();
-  for (const int row : grown(system.a, strip, growth)) in_strip[row] = 0.5;
-  for (const int row : strip) in_strip[row] = 1;
+void write_four_pairs(const std::filesystem::path& path, const Table& runs, int most) {
+  Table picture({"pair", "h", "delta", "iterations"});
+  for (const Table& run : runs.rows()) {
+    const double iterations = run.number("iterations");
+    picture.add({run.entry("pair"), 1 / run.number("cells"), run.entry("delta"),
+                 iterations < most ? iterations : std::nan("")});
+  }
+  picture.write(path);
+}
 
-  // a triangle has the smallest value of its edges, so that the drawing has no half triangles
-  const auto write = [&](const char* name, const std::vector<double>& value) {
-    Eigen::MatrixX3d corners(mesh.triangle_count(), 3);
-    for (int t = 0; t < mesh.triangle_count(); ++t) {
-      double least = 1;
-      for (const int e : mesh.triangle_edges.row(t))
-        least = std::min(least, system.row[e] < 0 ? 0 : value[system.row[e]]);
-      corners.row(t).setConstant(least);
-    }
-    write_vtu(folder / name, mesh, corners);
-  };
-  write("patch.vtu", in_patch);
-  write("strip.vtu", in_strip);
+void write_strip(const std::filesystem::path& path) {
+  constexpr int cells = 48;
+  const System system(unstructured_mesh(cells), 1);
+  Drawing drawing;
+  drawing.points("page", "", {{-0.32, -1.4}, {1.2, 0.22}});
+  const std::vector<Rows> strips = strips_of_layer(system, cells, growth);
+  draw_triangles(drawing, system, strips);
+  draw_patch(drawing, system.space.mesh());
+  for (int k = 0; k < 3; ++k) {
+    const auto [left, right] = extent_in_layer(system, strips[k]);
+    const double y = k == 1 ? -1.22 : -1.1;
+    drawing.points("dimension", "axis strip " + std::to_string(k), {{left, y}, {right, y}});
+  }
+  drawing.label("axis", "one strip", {0.5, -1.31});
+  for (const double x : {0.11, 0.89}) drawing.label("axis", "neighbour", {x, -1.19});
+  drawing.label("sigma", "$Σ$", {1.08, 0});
+  drawing.label("contact", "$Γ_C$", {1.1, -1});
+  drawing.table.write(path);
+}
 
+void write_coarse_function(const std::filesystem::path& folder) {
+  const System system(unstructured_mesh(16), 1);
   const SparseMatrix hats = coarse_functions(system, true);
-  // the hat function nearest to the middle of Sigma is the one with the largest value there
-  Eigen::Index middle = 0;
+  // the function of a vertex in the middle of Sigma is the one with the largest value on an
+  // edge below it
+  Eigen::Index edge = 0;
+  Eigen::Index function = 0;
   (system.space.dof_coordinates().rowwise() - Eigen::RowVector2d(0.5, -0.5))
       .rowwise()
       .squaredNorm()
-      .minCoeff(&middle);
-  Eigen::Index largest = 0;
-  Eigen::VectorXd(SparseMatrix(hats.transpose()).col(system.row[middle])).maxCoeff(&largest);
-  const Eigen::VectorXd hat = hats.col(largest);
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(system.space.size());
-  for (int e = 0; e < system.space.size(); ++e)
-    if (system.row[e] >= 0) u(e) = hat(system.row[e]);
-  write_vtu(folder / "hat.vtu", system.space, u);
+      .minCoeff(&edge);
+  Eigen::VectorXd(SparseMatrix(hats.transpose()).col(system.row[edge])).maxCoeff(&function);
+  for (const bool goes_on : {false, true}) {
+    const SparseMatrix all = coarse_functions(system, goes_on);
+    const Eigen::VectorXd values = all.col(function);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(system.space.size());
+    for (int e = 0; e < system.space.size(); ++e)
+      if (system.row[e] >= 0) u(e) = values(system.row[e]);
+    write_vtu(folder / (goes_on ? "hat.vtu" : "no_hat.vtu"), system.space, u);
+  }
 }
 
 }  // namespace antilock::tutorial

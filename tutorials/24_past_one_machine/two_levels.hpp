@@ -40,8 +40,16 @@ TriangleMesh mesh_without_columns(int cells);
 Table iterations_table(const std::vector<TwoLevels>& choices, const std::vector<int>& cells,
                        const std::vector<double>& deltas);
 
-/// patch.vtu, strip.vtu and hat.vtu, on mesh_without_columns(32): a patch and a strip (1 on
-/// its triangles, and 1/2 where the strip has grown), and the edge means of one hat function.
-void write_parts(const std::filesystem::path& folder);
+/// Writes such a table for the picture: pair, h, delta, and iterations, which are NaN where
+/// `most` were not enough.
+void write_four_pairs(const std::filesystem::path& path, const Table& runs, int most = 200);
+
+/// Writes a drawing of the subdomains on gmsh's mesh of 1/h = 48: one strip of three with
+/// what it shares with its neighbours, and one patch. figures/pictures/domain.cpp reads it.
+void write_strip(const std::filesystem::path& path);
+
+/// Writes no_hat.vtu and hat.vtu, the coarse function of a vertex of Sigma on gmsh's mesh of
+/// 1/h = 16, without and with its hat function in the layer.
+void write_coarse_function(const std::filesystem::path& folder);
 
 }  // namespace antilock::tutorial

@@ -195,10 +195,25 @@ class ContactLoop {
     return r2;
   }
 
+  /// The largest |r1| off the contact set of all ranks. It is 0 for an exact solve.
+  double error_of_last_solve() {
+    double error = 0;
+    const Entries residual(r1_);
+    for (int i = 0; i < rows_.owned(); ++i)
+      if (state_.active[i] == 0) error = std::max(error, std::abs(residual[i]));
+    return largest(error);
+  }
+
   /// The contact set that (u, lambda = -r1) proposes: kept where it presses, entered where u is
   /// below the bound. The first set is that of the start. `jump` becomes bound - u on the set.
+  /// With strips a point is kept, too, where it pulls by less than the error of the last solve.
+  /// The solve after a change of the set leaves a stiff residual of either sign around the changed
+  /// points, which would release their neighbours (measured at 460,288 unknowns on 2 ranks: 14
+  /// changes of the set and 119 iterations, and none and 37 with this condition).
   ContactStep propose_set(bool first) {
     const Eigen::VectorXd& lower = problem_.lower();
+    const bool uses_strips = options_.preconditioner == Preconditioner::strips;
+    const double unknown_force = uses_strips ? error_of_last_solve() : 0;
     ContactStep set;
     double force = largest_load_;
     {
@@ -207,7 +222,7 @@ class ContactLoop {
       Entries gap(jump_);
       for (int i = 0; i < rows_.owned(); ++i) {
         const bool was = state_.active[i] != 0;
-        const bool presses = residual[i] < 0;
+        const bool presses = residual[i] < unknown_force;
         const bool is_below = value[i] < lower(i);
         bool is = was ? presses : is_below;
         if (first) is = was;

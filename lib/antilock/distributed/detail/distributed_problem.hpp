@@ -12,11 +12,12 @@ namespace antilock::distributed {
 /// distributed_default is 1/64 of it, for the contact loop: conjugate gradients do not have the
 /// round-off of a factor (measured at 8.4 million unknowns: 59 iterations with 6e-8, 14 with 1e-9).
 /// none is the compliance itself, however small, as in most codes: for comparisons.
-/// mesh_width is (h / H)^2 / 256 for a layer without columns, and at least distributed_default.
-/// h^2 is the mean square of the shortest edge of a triangle of the layer, and H is the depth of the
-/// layer. A delta far below h^2 makes the contact set change more often (measured at 114,944
-/// unknowns with 1e-6, 4e-8 and 1e-9: 1, 1 and 4 changes, 23, 22 and 41 iterations; at 460,288
-/// unknowns with 1e-9 the set did not settle). A delta near h^2 needs more corrections.
+/// mesh_width is (h / H)^2 / 256 for a layer without columns, and at least distributed_default. h^2
+/// is the mean square of the shortest edge of a triangle of the layer, and H is the depth of the
+/// layer. A delta far below h^2 makes the contact set change more often (measured before the
+/// contact loop compared forces with the error of its solves, at 114,944 unknowns with 1e-6, 4e-8
+/// and 1e-9: 1, 1 and 4 changes, 23, 22 and 41 iterations; at 460,288 unknowns with 1e-9 the set
+/// did not settle). A delta near h^2 needs more corrections.
 enum class PenaltyChoice { distributed_default, serial_default, none, mesh_width };
 
 /// The problem of the class (6) (problem/variational_inequality.hpp). Each rank has the part of its

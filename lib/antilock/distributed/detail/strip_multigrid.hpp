@@ -43,6 +43,7 @@ class StripMultigrid {
 
  private:
   void set_coarse_matrix(Mat summed);
+  void prepare_coarse_product(Mat summed);
   void configure(KSP solver, Mat summed);
   void renew_operators(KSP solver, Mat summed);
   void configure_strips();
