@@ -158,8 +158,8 @@ Eigen::Matrix<double, d, k> places(const Mesh& mesh, const int* vertices) {
 
 /// Whether a simplex is flat up to round-off: at each vertex the determinant of the edges there is
 /// at most 1e-14 of the product of their lengths. In the plane this quotient is the sine of the
-/// angle. The round-off of the determinant is some 1e-16 of the product. A thin simplex is not flat
-/// by this measure, because at one of its vertices the edges are nearly perpendicular.
+/// angle. A thin simplex is not flat where at one of its vertices the edges are nearly
+/// perpendicular.
 template <CellKind kind>
 bool is_flat(const Mesh& mesh, int t) {
   constexpr int d = reference_cell(kind).dimension;
@@ -172,11 +172,40 @@ bool is_flat(const Mesh& mesh, int t) {
   return true;
 }
 
+/// Whether Mesh::measure, which is a sum of products of coordinates of the edges at vertex 0, is
+/// round-off: at most 1e-14 of the sum of the sizes of these products. A thin simplex along an axis
+/// has few of them. An oblique tetrahedron of the length 1 and the width 1e-9 may have a measure of
+/// the wrong sign.
+template <CellKind kind>
+bool has_lost_measure(const Mesh& mesh, int t) {
+  constexpr int d = reference_cell(kind).dimension;
+  const auto x = places<d, d + 1>(mesh, mesh.triangles.data() + (d + 1) * t);
+  const Eigen::Array<double, d, d> along =
+      (x.template rightCols<d>().colwise() - x.col(0)).cwiseAbs();
+  double products = 0;
+  if constexpr (d == 2) {
+    products = along(0, 0) * along(1, 1) + along(1, 0) * along(0, 1);
+  } else {
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      products += along(i, 0) * (along(j, 1) * along(k, 2) + along(k, 1) * along(j, 2));
+    }
+  }
+  constexpr int simplices_per_box = d == 2 ? 2 : 6;
+  return !(simplices_per_box * std::abs(mesh.measure(t)) > 1e-14 * products);
+}
+
+template <CellKind kind>
+bool is_degenerate(const Mesh& mesh, int t) {
+  return is_flat<kind>(mesh, t) || has_lost_measure<kind>(mesh, t);
+}
+
 void check_cells(const Mesh& mesh, const std::string& where) {
   const bool in_space = mesh.dimension() == 3;
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (in_space ? is_flat<CellKind::tetrahedron>(mesh, t) : is_flat<CellKind::triangle>(mesh, t))
-      refuse<MeshError>(where, "degenerate {}: its {} is zero", cell_text(mesh, t),
+    if (in_space ? is_degenerate<CellKind::tetrahedron>(mesh, t)
+                 : is_degenerate<CellKind::triangle>(mesh, t))
+      refuse<MeshError>(where, "degenerate {}: its {} is zero up to round-off", cell_text(mesh, t),
                         in_space ? "volume" : "area");
 }
 

@@ -148,7 +148,8 @@ double body_size(const Mesh& mesh);
 ///
 /// Throws Error for indices out of range, values that are not finite, a single inverted cell,
 /// degenerate cells (at each vertex the determinant of the edges there is at most 1e-14 times the
-/// product of their lengths; a thin cell is none), unused vertices, two vertices at one place
+/// product of their lengths, or the area or volume is round-off; a thin cell along an axis is
+/// none), unused vertices, two vertices at one place
 /// unless they are on facets of two named groups, facets of three cells or of overlapping ones,
 /// boundary facets without a tag (as at a hanging node), tagged facets that are no facet of the
 /// mesh, a mesh without a body, and a mesh without a facet that is clamped or in a named group.

@@ -1,4 +1,6 @@
 // MSH files of tetrahedra, as they are written and broken.
+#include <Eigen/Geometry>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -229,6 +231,29 @@ TEST(ReadTetrahedra, TakesThinCellsInAnyUnit) {
   Mesh body = structured_mesh(4, {0, CellKind::tetrahedron});
   body.vertices *= 1e-9;
   EXPECT_EQ(extruded(body, 4e-9).triangle_count(), body.triangle_count() + 3 * 16 * 32);
+}
+
+// The volume of an oblique needle of the width w is a sum of products of the size 1 that is w^2.
+TEST(ReadTetrahedra, RefusesANeedleWhoseVolumeIsRoundOff) {
+  const Eigen::Vector3d along = Eigen::Vector3d(1, 2, 3).normalized();
+  const Eigen::Vector3d across = along.unitOrthogonal();
+  const auto needle = [&](double width) {
+    Points vertices(4, 3);
+    vertices.row(0) = along.transpose();
+    vertices.row(1).setZero();
+    vertices.row(2) = width * across.transpose();
+    vertices.row(3) = width * along.cross(across).transpose();
+    return vertices;
+  };
+  const IndexRows cells{{0, 1, 2, 3}};
+  const std::vector<TaggedEdge> faces{{0, 1, 2, EdgeTag::clamped},
+                                      {0, 1, 3, EdgeTag::clamped},
+                                      {0, 2, 3, EdgeTag::clamped},
+                                      {1, 2, 3, EdgeTag::clamped}};
+  const Mesh thin = make_mesh(needle(1e-6), cells, {Region::body}, faces, "input");
+  EXPECT_NEAR(thin.measure(0) / (1e-12 / 6), 1, 1e-3);  // 1e-16 of the sum is 1e-4 of the volume
+  expect_refused([&] { make_mesh(needle(1e-9), cells, {Region::body}, faces, "input"); },
+                 "its volume is zero up to round-off");
 }
 
 TEST(ReadTetrahedra, RefusesFlatCellsInAnyUnit) {
