@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -17,6 +18,9 @@
 extern "C" {
 [[gnu::weak]] int omp_get_max_active_levels();
 [[gnu::weak]] void omp_set_max_active_levels(int levels);
+// Absent where CHOLMOD was built without METIS.
+[[gnu::weak]] int cholmod_metis(cholmod_sparse* a, int* fset, size_t fsize, int postorder,
+                                int* perm, cholmod_common* common);
 }
 
 namespace antilock {
@@ -185,13 +189,16 @@ class CholmodCholesky final : public SparseCholesky {
     analyse_in_order(whole, order, interior);
     constexpr double as_long_as_metis = 40'000;
     if (common_.fl < as_long_as_metis * common_.anz) return;
-    const double entries_by_camd = common_.lnz;
-    cholmod_factor* by_camd = std::exchange(l_, nullptr);
-    require(cholmod_metis(&whole, nullptr, 0, 1, order.data(), &common_) != 0, "ordering");
+    if (!cholmod_metis || cholmod_metis(&whole, nullptr, 0, 1, order.data(), &common_) == 0)
+      return;  // the order of CAMD is slower, and as good otherwise
     std::stable_partition(order.begin(), order.end(), [&](int row) { return row < interior; });
+    const double entries_by_camd = common_.lnz;
+    const auto release = [&](cholmod_factor* l) { cholmod_free_factor(&l, &common_); };
+    std::unique_ptr<cholmod_factor, decltype(release)> by_camd(std::exchange(l_, nullptr), release);
     analyse_in_order(whole, order, interior);
-    if (common_.lnz > entries_by_camd) std::swap(l_, by_camd);
-    cholmod_free_factor(&by_camd, &common_);
+    if (common_.lnz <= entries_by_camd) return;
+    cholmod_factor* const by_metis = std::exchange(l_, by_camd.release());
+    by_camd.reset(by_metis);
   }
 
   /// Analyses the pattern in an order of the first `interior` rows. The others follow in their own
