@@ -121,6 +121,24 @@ bool tighten_bounds(VariationalInequality& problem, const UnilateralContact& con
   return moved;
 }
 
+/// The height of a layer at rest: 0 where a value is prescribed in it, otherwise the mean of u_h,
+/// moved into the bounds. A layer whose sides are free follows a body that is moved as a whole.
+double height_at_rest(const Result& result) {
+  const Mesh& mesh = result.space.mesh();
+  std::set<int> unknowns;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::layer)
+      for (const int unknown : result.space.cell_dofs().row(t)) unknowns.insert(unknown);
+  for (const int prescribed : result.problem.dirichlet_dofs)
+    if (unknowns.contains(prescribed)) return 0;
+  double sum = 0;
+  for (const int unknown : unknowns) sum += result.solution.u(unknown);
+  const double mean = sum / static_cast<double>(unknowns.size());
+  const Bounds& bounds = result.problem.bounds;
+  if (bounds.unknowns.empty()) return mean;
+  return std::min(std::max(mean, bounds.lower.maxCoeff()), bounds.upper.minCoeff());
+}
+
 double least_energy(const VariationalInequality& problem) {
   return energy(problem, active_set(problem));
 }
@@ -147,10 +165,18 @@ LossBesideColumns loss_beside_columns(const Scene& scene, const Result& result) 
   VariationalInequality problem = assemble(stretched(scene), on_columns);
 
   const double of_u = energy(result.problem, result.solution);
-  const double at_rest = least_energy(with_layer_at_rest(result.problem, space));
+  const double height = height_at_rest(result);
+  const double at_rest = least_energy(with_layer_at_rest(result.problem, space, height));
   const double of_columns = least_energy(problem);
-  // each energy is that of a solution with the tolerance 1e-10
-  const double round_off = 1e-10 * std::max(std::abs(at_rest), std::abs(of_columns));
+  // Each energy is that of a solution with the tolerance 1e-10. A motion as a whole costs no energy
+  // but round-off. The layer at the height 0 does not follow it, and has an energy of its size.
+  double scale = std::max(std::abs(at_rest), std::abs(of_columns));
+  if (height != 0) {
+    VariationalInequality without_bounds = result.problem;
+    without_bounds.bounds = {};
+    scale = std::max(scale, std::abs(least_energy(with_layer_at_rest(without_bounds, space))));
+  }
+  const double round_off = 1e-10 * scale;
   const auto released_by = [&](double least) {
     return at_rest - least > round_off ? at_rest - least : 0;
   };

@@ -7,7 +7,8 @@ namespace antilock {
 /// The energy that a conforming element loses on tetrahedra, by its own solutions on another mesh:
 /// the same body, and below each face of Sigma, the interface of body and layer, a column. With J
 /// as in LockingLoss, u_c the solution on columns, and v_0 the function of least energy whose layer
-/// does not move,
+/// is at rest: u = 0 in a layer with clamped sides, otherwise the mean of u_h in the layer, moved
+/// into the bounds,
 ///
 ///     estimate = J(u_h) - J(u_c),   reference = J(v_0) - J(u_c).
 ///
@@ -26,8 +27,8 @@ struct LossBesideColumns {
   double proved_share() const;     ///< lower_bound / bound_reference, from 0 to 1
 };
 
-/// Computes the loss by two solves, and by a third one where the obstacle between vertices is above
-/// the affine function through them. Throws Error for another element or mesh, for a layer whose
+/// Computes the loss by two solves, by one more where the obstacle between vertices is above the
+/// affine function through them, and by one more where the sides of the layer are free. Throws Error for another element or mesh, for a layer whose
 /// sides are not all clamped or all free, where the layer at rest is beyond an obstacle, and where
 /// no function on columns is above it. Throws as active_set does.
 LossBesideColumns loss_beside_columns(const Scene& scene, const Result& result);

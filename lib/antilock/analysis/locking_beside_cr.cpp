@@ -12,15 +12,16 @@
 
 namespace antilock {
 
-VariationalInequality with_layer_at_rest(VariationalInequality problem, const Space& space) {
+VariationalInequality with_layer_at_rest(VariationalInequality problem, const Space& space,
+                                         double height) {
   std::map<int, double> values;
   for (int t = 0; t < space.mesh().triangle_count(); ++t)
     if (space.mesh().region[t] == Region::layer)
-      for (const int unknown : space.cell_dofs().row(t)) values[unknown] = 0;
+      for (const int unknown : space.cell_dofs().row(t)) values[unknown] = height;
   for (std::size_t k = 0; k < problem.dirichlet_dofs.size(); ++k)
     values[problem.dirichlet_dofs[k]] = problem.dirichlet_values(static_cast<Eigen::Index>(k));
   if (!problem.bounds.unknowns.empty()) {
-    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(space.size());
+    const Eigen::VectorXd at_rest = Eigen::VectorXd::Constant(space.size(), height);
     if (distance_to_bound(problem.bounds, at_rest).minCoeff() < 0)
       throw Error("the layer at rest is beyond an obstacle");
     problem.bounds = {};

@@ -8,10 +8,11 @@
 
 namespace antilock {
 
-/// Returns the problem with u = 0 in the layer, except where other values are prescribed. Bounds on
-/// unknowns are left out, because Gamma_C, the contact boundary, belongs to the layer. Throws Error
-/// where u = 0 violates them.
-VariationalInequality with_layer_at_rest(VariationalInequality problem, const Space& space);
+/// Returns the problem with u = `height` in the layer, except where other values are prescribed.
+/// Bounds on unknowns are left out, because Gamma_C, the contact boundary, belongs to the layer.
+/// Throws Error where u = height violates them.
+VariationalInequality with_layer_at_rest(VariationalInequality problem, const Space& space,
+                                         double height = 0);
 
 /// The share beside another mesh or element from which a loss is attributed to locking. At epsilon
 /// = 1, where nothing locks, the share beside columns was 0 to 24 % for loads of one to three waves

@@ -118,6 +118,29 @@ TEST(LossBesideColumns, KnowsTheThinLayer) {
   EXPECT_NEAR(loss.estimate, of_scaled.estimate, 1e-9 * loss.reference);
 }
 
+// The top is moved, and the layer below a body with free sides follows: neither the loss nor what
+// it is compared with changes.
+TEST(LossBesideColumns, DoesNotDependOnAMotionAsAWhole) {
+  Mesh mesh = meshes()[0];
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == EdgeTag::clamped) {
+      const bool of_top = (mesh.vertices.col(2)(mesh.edges.row(e)).array() == 1).all();
+      mesh.edge_tag[e] = of_top ? dirichlet_group(0) : EdgeTag::free;
+    }
+  const auto moved_by = [&](double distance) {
+    const BoundaryCondition top{"top", BoundaryCondition::Kind::displacement,
+                                [=](double) { return distance; }};
+    const Scene scene(Body{load}, StiffLayer{1e-2}, std::nullopt, {top});
+    return loss_beside_columns(scene, solved(scene, mesh, p1(kind)));
+  };
+  const LossBesideColumns at_home = moved_by(0);
+  EXPECT_GT(at_home.proved_share(), telling_share);
+  for (const double distance : {-1e3, 1.0, 1e3})
+    EXPECT_NEAR(moved_by(distance).proved_share(), at_home.proved_share(), 1e-4) << distance;
+  // so far away the energies, of the size 0.1, are round-off
+  EXPECT_EQ(moved_by(1e9).proved_share(), 0);
+}
+
 TEST(LossBesideColumns, RefusesOtherSides) {
   const Scene scene(Body{load}, StiffLayer{1e-2});
   Result result = solved(scene, meshes()[1], p1(kind));
