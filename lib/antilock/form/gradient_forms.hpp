@@ -40,8 +40,8 @@ WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffne
 ///     h . u / 4 - (h . x / 4) . grad u(centre),
 ///
 /// which is 0 for affine functions. Its entry of M is the energy of the function S T, S = 2 s - 1
-/// and T = 2 t - 1, in the form with these stiffnesses. On parallelograms the reduced form and this
-/// form together are the full form. Throws Error for another element than one of Q1.
+/// and T = 2 t - 1, in the form with these stiffnesses. The reduced form and this form together are
+/// the full form on any quadrilateral. Throws Error for another element than one of Q1.
 FactoredForm hourglass_form(const Space& space, const Stiffness& body, const Stiffness& layer);
 
 /// Returns the factored form of a_y^-(u, v) = (B u, M B v) of (23). A row of B is d_y, in space
