@@ -139,6 +139,17 @@ MeshArrays kept_mesh(const std::string& name, CellKind kind, Make&& make) {
   return made;
 }
 
+/// Throws where gmsh has left triangles without a partner: the quadrilaterals then have holes.
+void check_filled(const TriangleMesh& mesh, double area) {
+  double covered = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t) covered += mesh.measure(t);
+  if (!(std::abs(covered - area) < 1e-9 * area))
+    throw MeshError(
+        fmt::format("mesh: gmsh covers {:.6g} of the area {:.6g} with quadrilaterals; accepted: "
+                    "another number of cells, or a structured mesh",
+                    covered, area));
+}
+
 /// A number >= 0 as printf's %a writes it. fmt 10 writes 0 as 0x0p-1022.
 std::string hexadecimal(double x) { return x == 0 ? "0x0p+0" : fmt::format("{:a}", x); }
 
@@ -176,6 +187,7 @@ TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
                   hexadecimal(h_layer_made)),
       domain.kind, [&] { return by_gmsh(depth, h_made, h_layer_made, mesher, domain.kind); });
   TriangleMesh mesh = tag_by_position(std::move(vertices), std::move(triangles), domain.kind);
+  if (recombined) check_filled(mesh, 1 + depth);
   for (int i = 0; i < halvings; ++i) mesh = refined(mesh);
   return mesh;
 }
