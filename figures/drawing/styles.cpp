@@ -96,6 +96,13 @@ const Row rows[] = {
     {"P1 with one-point shear", "$P_1$, shear at one point", "", {olive, down_triangle, 6}},
     {"Duran-Liberman", "Durán–Liberman", "", {blue, circle, 6}},
     {"Arnold-Falk", "Arnold–Falk", "", {purple, triangle, 8.5}},
+    // switches of quadrilaterals: what locks at once, what hides it, what cures it
+    {"full", "full", "", {vermillion, square, 10}},
+    {"selective", "selective and B-bar", "", {blue, circle, 9}},
+    {"reduced", "reduced", "", {sky, diamond, 5.5}},
+    {"stabilised", "stabilised", "", {indigo, down_triangle, 3}},
+    {"rotated", "rotated", "", {olive, triangle, 6}},
+    {"rotated, means", "rotated, means", "", {green, diamond, 8}},
     // integration of the beam, the two strings
     {"full integration", "full integration", "", {vermillion, square, 8}},
     {"reduced integration", "reduced integration", "", {blue, circle, 6}},

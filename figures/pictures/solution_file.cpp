@@ -74,23 +74,26 @@ void check_corners(const std::filesystem::path& path, vtkUnstructuredGrid& grid)
   }
 }
 
-/// The points and triangles, without data.
-vtkSmartPointer<vtkPolyData> triangles_of(const std::filesystem::path& path,
-                                          vtkUnstructuredGrid& grid) {
-  vtkNew<vtkCellArray> triangles;
+/// The points and the triangles or quadrilaterals, without data.
+vtkSmartPointer<vtkPolyData> polygons_of(const std::filesystem::path& path,
+                                         vtkUnstructuredGrid& grid) {
+  vtkNew<vtkCellArray> polygons;
   for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
-    if (grid.GetCellType(cell) != VTK_TRIANGLE)
-      refuse(path, fmt::format("cell {} is not a triangle", cell));
+    const bool triangle = grid.GetCellType(cell) == VTK_TRIANGLE;
+    if (!triangle && grid.GetCellType(cell) != VTK_QUAD)
+      refuse(path, fmt::format("cell {} is not a triangle and not a quadrilateral", cell));
     vtkIdType size = 0;
     const vtkIdType* corners = nullptr;
     grid.GetCellPoints(cell, size, corners);
-    if (size != 3) refuse(path, fmt::format("cell {} is a triangle with {} corners", cell, size));
-    triangles->InsertNextCell(size, corners);
+    if (size != (triangle ? 3 : 4))
+      refuse(path, fmt::format("cell {} is a {} with {} corners", cell,
+                               triangle ? "triangle" : "quadrilateral", size));
+    polygons->InsertNextCell(size, corners);
   }
   check_corners(path, grid);
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   surface->SetPoints(grid.GetPoints());
-  surface->SetPolys(triangles);
+  surface->SetPolys(polygons);
   return surface;
 }
 
@@ -99,7 +102,7 @@ vtkSmartPointer<vtkPolyData> triangles_of(const std::filesystem::path& path,
 vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path) {
   const auto grid = read_grid(path);
   vtkDataArray* u = array_of(path, grid->GetPointData(), "u", 1);
-  auto surface = triangles_of(path, *grid);
+  auto surface = polygons_of(path, *grid);
   surface->GetPointData()->SetScalars(u);
   return surface;
 }
@@ -140,7 +143,7 @@ vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path) {
   const auto grid = read_grid(path);
   vtkDataArray* pressure = array_of(path, grid->GetCellData(), "pressure", 1);
   vtkDataArray* displacement = array_of(path, grid->GetPointData(), "displacement", 3);
-  auto surface = triangles_of(path, *grid);
+  auto surface = polygons_of(path, *grid);
   surface->GetCellData()->SetScalars(pressure);
   surface->GetPointData()->AddArray(displacement);
   return surface;

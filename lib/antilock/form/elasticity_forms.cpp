@@ -31,8 +31,20 @@ std::vector<std::pair<int, double>> jump(const Space& space, int first, int e) {
 
 }  // namespace
 
+void require_plane(const Mesh& mesh, const char* who) {
+  if (mesh.dimension() != 2)
+    throw Error(std::string(who) + ": a mesh of " + mesh.reference().plural +
+                "; accepted: triangles or quadrilaterals");
+}
+
 const Quadrature& strain_quadrature(const VectorSpace& space) {
-  return triangle_rule(2 * (std::max(space.x.element().degree(), space.y.element().degree()) - 1));
+  return cell_rule(space.x.mesh().kind,
+                   std::max(space.x.element().strain_degree(), space.y.element().strain_degree()));
+}
+
+const Quadrature& gradient_quadrature(const VectorSpace& space) {
+  return cell_rule(space.x.mesh().kind, std::max(space.x.element().gradient_degree(),
+                                                 space.y.element().gradient_degree()));
 }
 
 Eigen::Matrix4d Lame::matrix() const {
@@ -44,17 +56,14 @@ Eigen::Matrix4d Lame::matrix() const {
 Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::Matrix4d& body,
                                         const Eigen::Matrix4d& layer) {
   const TriangleMesh& mesh = space.x.mesh();
-  const Quadrature& rule = strain_quadrature(space);
-  const Gradients gradients(space, rule);
+  const Gradients gradients(space, gradient_quadrature(space));
   return assemble_strains(space.size(), mesh.triangle_count(), [&](int t) {
-    const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
     const Eigen::VectorXi unknown = gradients.unknowns(t);
     Eigen::MatrixXd local = Eigen::MatrixXd::Zero(unknown.size(), unknown.size());
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::Matrix4Xd d = gradients.at(q, barycentric);
-      local += rule.weights(q) * mesh.area(t) * d.transpose() *
-               (mesh.region[t] == Region::body ? body : layer) * d;
-    }
+    gradients.at_points(t, [&](double weight, double factor, const Eigen::Matrix4Xd& d) {
+      local +=
+          weight * factor * d.transpose() * (mesh.region[t] == Region::body ? body : layer) * d;
+    });
     return std::pair(unknown, local);
   });
 }
@@ -62,22 +71,19 @@ Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::M
 FactoredForm strain_form_factored(const VectorSpace& space, const std::vector<StrainTerm>& strains,
                                   std::optional<Region> region) {
   const TriangleMesh& mesh = space.x.mesh();
-  const Quadrature& rule = strain_quadrature(space);
-  const Gradients gradients(space, rule);
+  const Gradients gradients(space, strain_quadrature(space));
   FactoredFormBuilder rows;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (region && mesh.region[t] != *region) continue;
-    const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
     const Eigen::VectorXi unknown = gradients.unknowns(t);
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::Matrix4Xd d = gradients.at(q, barycentric);
+    gradients.at_points(t, [&](double weight, double factor, const Eigen::Matrix4Xd& d) {
       for (const StrainTerm& row : strains) {
         const Eigen::RowVectorXd strain = row.strain * d;
-        rows.add(t, row.weight * rule.weights(q) * mesh.area(t));
+        rows.add(t, row.weight * weight * factor);
         for (Eigen::Index i = 0; i < unknown.size(); ++i)
           if (strain(i) != 0) rows.put(unknown(i), strain(i));
       }
-    }
+    });
   }
   return rows.form(space.size());
 }
@@ -112,10 +118,10 @@ namespace {
 template <class Act>
 void at_steps(const VectorSpace& space, bool clamped_in_x, Act&& act) {
   const TriangleMesh& mesh = space.x.mesh();
-  require_triangles(mesh, "jumps of a displacement");
   for (const auto& [part, first] :
        {std::pair<const Space*, int>{&space.x, 0}, {&space.y, space.x.size()}}) {
-    if (part->element().conforming()) continue;           // no steps
+    if (part->element().conforming()) continue;  // no steps
+    require_triangles(mesh, "jumps of a displacement");
     if (part->element().equation().size() > 0) continue;  // Korn's inequality holds as it is
     for (int e = 0; e < mesh.edge_count(); ++e) {
       const bool interior = mesh.edge_triangles(e, 1) >= 0;

@@ -10,6 +10,9 @@
 
 namespace antilock {
 
+/// Throws Error for a mesh in space. `who` is the beginning of the message.
+void require_plane(const Mesh& mesh, const char* who);
+
 /// The derivatives (u_x, u_y, v_x, v_y) of a displacement (u, v), in this order, or coefficients of
 /// them.
 using GradientCoefficients = Eigen::RowVector4d;
@@ -59,9 +62,12 @@ WeightedFactoredForm stiff_strain_rows(const VectorSpace& space,
 /// CR div u is constant on a triangle, which has one row then, with M its area.
 FactoredForm divergence(const VectorSpace& space);
 
-/// Returns the quadrature rule of these rows. It is exact for the square of a derivative, of degree
-/// 2 (k - 1), k the higher degree of the two components.
+/// Returns the quadrature rule of these rows. On triangles it is exact for the square of a
+/// derivative, of degree 2 (k - 1), k the higher degree of the two components. On quadrilaterals the
+/// elements choose it (Element::strain_degree).
 const Quadrature& strain_quadrature(const VectorSpace& space);
+/// Returns the quadrature rule of strain_form. It is strain_quadrature but for Q1-selective.
+const Quadrature& gradient_quadrature(const VectorSpace& space);
 
 /// Returns the N x N matrix of 2 mu weight sum_e |e|^-1 int_e [u].[v], mu = 1, over the interior
 /// and the clamped edges e, for the components that are CR. [u] is the jump. Crouzeix-Raviart needs

@@ -62,7 +62,7 @@ Eigen::SparseMatrix<double> gradient_form_on(const Space& space,
                                  d = reference_cell(kind).dimension;
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
-  const Quadrature& rule = strain_quadrature(element);
+  const Quadrature& rule = gradient_quadrature(element);
   const auto derivatives = derivatives_at<kind>(element, rule);
   if constexpr (reference_cell(kind).simplex)
     if (element.degree() == 1) {  // one point, matrices of a fixed size
@@ -90,7 +90,7 @@ template <CellKind kind>
 WeightedFactoredForm gradient_rows_on(const Space& space,
                                       const std::vector<Stiffness>& of_triangle) {
   const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = strain_quadrature(space.element());
+  const Quadrature& rule = gradient_quadrature(space.element());
   const auto derivatives = derivatives_at<kind>(space.element(), rule);
   FactoredFormBuilder rows;
   std::vector<double> moduli;
@@ -196,9 +196,11 @@ double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle
 }
 
 const Quadrature& strain_quadrature(const Element& element) {
-  // on a square the derivative by s is of degree k in t
-  const bool simplex = reference_cell(element.kind()).simplex;
-  return cell_rule(element.kind(), 2 * (simplex ? element.degree() - 1 : element.degree()));
+  return cell_rule(element.kind(), element.strain_degree());
+}
+
+const Quadrature& gradient_quadrature(const Element& element) {
+  return cell_rule(element.kind(), element.gradient_degree());
 }
 
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body,
@@ -224,6 +226,36 @@ FactoredForm layer_strain(const Space& space,
                           const std::function<Eigen::Vector2d(int)>& direction) {
   return with_kind(space.mesh().kind,
                    [&]<CellKind kind>() { return layer_strain_on<kind>(space, direction); });
+}
+
+FactoredForm hourglass_form(const Space& space, const Stiffness& body, const Stiffness& layer) {
+  constexpr CellKind kind = CellKind::quadrilateral;
+  const TriangleMesh& mesh = space.mesh();
+  const Element& element = space.element();
+  if (mesh.kind != kind || !element.conforming())
+    throw Error("hourglass form: the element " + element.name() + " on a mesh of " +
+                mesh.reference().plural + "; accepted: Q1 on quadrilaterals");
+  const Quadrature& rule = gradient_quadrature(q1());
+  const Eigen::Vector4d h(1, -1, 1, -1);
+  const ReferencePoint centre = Eigen::Vector2d(0.5, 0.5);
+  const Eigen::Matrix<double, 4, 2> slopes = element.derivative(centre);
+  FactoredFormBuilder rows;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Stiffness& stiffness = mesh.region[t] == Region::layer ? layer : body;
+    double energy = 0;  // of S T, whose derivatives by s and t are 2 T and 2 S
+    at_rule_points<kind>(mesh, t, rule, [&](Eigen::Index q, double factor, const auto& gradient) {
+      const Eigen::RowVector2d of_st(4 * rule.points(q, 1) - 2, 4 * rule.points(q, 0) - 2);
+      const Eigen::RowVector2d slope = of_st * gradient;
+      energy += rule.weights(q) * factor *
+                (stiffness.x * slope(0) * slope(0) + stiffness.y * slope(1) * slope(1));
+    });
+    rows.add(t, energy);
+    const CellMap<kind> map(mesh, t);
+    const Eigen::Matrix<double, 4, 2> gradient = slopes * map.at(centre).gradient;
+    const Eigen::Vector4d part = 0.25 * (h - gradient * (map.corners() * h));
+    for (int i = 0; i < 4; ++i) rows.put(space.cell_dofs()(t, i), part(i));
+  }
+  return rows.form(space.size());
 }
 
 const Quadrature& load_rule(const Element& element) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/sparse_assembly.hpp"
@@ -58,6 +59,22 @@ FactoredForm project_strain(const FactoredForm& form, const StrainProjection& pr
     for (Eigen::Index g = 0; g < projection.rows(); ++g)
       mean.cell.push_back(form.cell[StrainProjection::InnerIterator(projection, g).col()]);
   return mean;
+}
+
+StrainProjection cell_projection(const FactoredForm& form) {
+  Triplets entries;
+  std::set<int> cells;
+  for (std::size_t r = 0; r < form.cell.size(); ++r) {
+    const bool next = r == 0 || form.cell[r] != form.cell[r - 1];
+    if (next && !cells.insert(form.cell[r]).second)
+      throw Error(
+          fmt::format("cell_projection: the rows of cell {} of B do not follow each other; "
+                      "accepted: the rows of a form cell by cell",
+                      form.cell[r]));
+    entries.emplace_back(static_cast<int>(cells.size()) - 1, static_cast<int>(r), 1.0);
+  }
+  return from_triplets<StrainProjection>(static_cast<Eigen::Index>(cells.size()), form.b.rows(),
+                                         entries);
 }
 
 StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& form, double width,

@@ -15,11 +15,16 @@
 namespace antilock {
 namespace {
 
-/// The lattice of order 4 of a simplex: corners, edge midpoints and quarters, inner points.
+/// The lattice of order 4 of a cell: corners, edge midpoints and quarters, inner points.
 std::vector<ReferencePoint> sample_points(CellKind kind) {
   constexpr int order = 4;
   const bool in_space = kind == CellKind::tetrahedron;
   std::vector<ReferencePoint> points;
+  if (!reference_cell(kind).simplex) {
+    for (int i = 0; i <= order; ++i)
+      for (int j = 0; j <= order; ++j) points.emplace_back(Eigen::Vector2d(i, j) / order);
+    return points;
+  }
   for (int i = 0; i <= order; ++i)
     for (int j = 0; i + j <= order; ++j) {
       const int rest = order - i - j;
@@ -47,10 +52,27 @@ Eigen::MatrixXd monomials(const ReferencePoints& points, int degree) {
   return values;
 }
 
-/// p_h on a layer cell is of degree k - 1: its values at `points`, from its rows of B.
+/// The monomials s^i t^j, i and j <= degree, at each point of a square.
+Eigen::MatrixXd products(const ReferencePoints& points, int degree) {
+  Eigen::MatrixXd values(points.rows(), Eigen::Index(degree + 1) * (degree + 1));
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; j <= degree; ++j)
+      values.col(Eigen::Index(i) * (degree + 1) + j) =
+          points.col(0).array().pow(i) * points.col(1).array().pow(j);
+  return values;
+}
+
+/// The values of p_h at `points`, from the rows of B of a cell. On a simplex p_h is of degree k -
+/// 1. On a quadrilateral it is the polynomial in s and t through its values at the points of the
+/// rows: bilinear for two by two points, and constant for one.
 Eigen::MatrixXd layer_stress_values(const Element& element, const ReferencePoints& points) {
+  const ReferencePoints& rows = strain_quadrature(element).points;
+  if (!reference_cell(element.kind()).simplex) {
+    const int degree = element.strain_degree() / 2;
+    return products(points, degree) * pseudo_inverse(products(rows, degree));
+  }
   const int degree = element.degree() - 1;
-  const Eigen::MatrixXd at_rows = monomials(strain_quadrature(element).points, degree);
+  const Eigen::MatrixXd at_rows = monomials(rows, degree);
   return monomials(points, degree) * pseudo_inverse(at_rows);
 }
 
@@ -120,14 +142,14 @@ double largest_error(const Space& space, const Solution& solution, const Referen
 template <CellKind kind>
 void add_errors_on_cells(Errors& errors, const Space& space, const Solution& solution,
                          double epsilon, const Reference& reference) {
-  constexpr int n = reference_cell(kind).vertices, d = reference_cell(kind).dimension;
+  constexpr int c = reference_cell(kind).coordinates, d = reference_cell(kind).dimension;
   using Vector = Eigen::Matrix<double, d, 1>;
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const Quadrature& rule = load_rule(element);
   const Eigen::Index points = rule.weights.size();
   std::vector<Eigen::VectorXd> basis;
-  std::vector<Eigen::Matrix<double, Eigen::Dynamic, n>> derivative;
+  std::vector<Eigen::Matrix<double, Eigen::Dynamic, c>> derivative;
   for (Eigen::Index q = 0; q < points; ++q) {
     basis.push_back(element.basis(rule.points.row(q)));
     derivative.push_back(element.derivative(rule.points.row(q)));
@@ -143,11 +165,12 @@ void add_errors_on_cells(Errors& errors, const Space& space, const Solution& sol
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     u = solution.u(space.cell_dofs().row(t));
     const CellMap<kind> map(mesh, t);
-    const auto here = map.at(CellMap<kind>::Coordinates::Zero());  // the same at every point
+    auto here = map.at(rule.points.row(0).transpose());  // on a simplex the same at every point
     double& energy2 = errors.by_triangle(t);
     const bool in_layer = mesh.region[t] == Region::layer;
     const bool stiff = in_layer && solution.p.size() > 0;
     for (Eigen::Index q = 0; q < points; ++q) {
+      if constexpr (!reference_cell(kind).simplex) here = map.at(rule.points.row(q).transpose());
       const Vector x = map.point(rule.points.row(q).transpose());
       const double weight = rule.weights(q) * here.factor;
       const Known<d> exact = known_at<d>(reference, x, stiff);
@@ -191,23 +214,16 @@ Reference reference(const ExactTable& table) {
 
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon,
                       const Reference& reference) {
-  const CellKind kind = space.mesh().kind;
-  if (kind == CellKind::quadrilateral)
-    throw Error("errors: a mesh of quadrilaterals; accepted: triangles and tetrahedra");
   check_solution(space, solution);
   Errors errors;
   const Eigen::VectorXd exact_dofs = dof_values(space, reference.value);
   for (int i = 0; i < space.size(); ++i)
     errors.max_at_unknowns =
         larger(errors.max_at_unknowns, std::abs(solution.u(i) - exact_dofs(i)));
-  const auto add = [&]<CellKind of_cells>() {
-    errors.max = largest_error<of_cells>(space, solution, reference);
-    add_errors_on_cells<of_cells>(errors, space, solution, epsilon, reference);
-  };
-  if (kind == CellKind::triangle)
-    add.template operator()<CellKind::triangle>();
-  else
-    add.template operator()<CellKind::tetrahedron>();
+  with_kind(space.mesh().kind, [&]<CellKind kind>() {
+    errors.max = largest_error<kind>(space, solution, reference);
+    add_errors_on_cells<kind>(errors, space, solution, epsilon, reference);
+  });
   return errors;
 }
 

@@ -62,22 +62,23 @@ Reference reference(const ExactTable& table);
 struct Errors {
   double max_at_unknowns = 0;  ///< at the unknowns: vertices (P1) or edge midpoints (CR)
   /// L-infinity, sampled at the points of the lattice of order 4 of every cell, corners included:
-  /// 15 on a triangle, 35 on a tetrahedron.
+  /// 15 on a triangle, 25 on a quadrilateral, 35 on a tetrahedron.
   double max = 0;
   double l2 = 0;
   double h1 = 0;  ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
   /// The energy norm |.|_a^epsilon of Remark 4 of [SR04] (cited in
   /// problem/variational_inequality.hpp) for (23) and (24) with s = 1; a stiffness s of the scene's
   /// layer is not taken into account. The stiff part is computed from p, which is finite at epsilon
-  /// = 0. For (22), (25) and without a layer it is the norm of the gradient.
+  /// = 0. For (22), (25) and without a layer it is the norm of the gradient. On quadrilaterals p is
+  /// taken as bilinear between the two by two points of its rows, or as constant for one point.
   double energy = 0;
   /// T: the error of each triangle in the energy norm. Their squares add up to the square of
   /// `energy`.
   Eigen::VectorXd by_triangle;
 };
 
-/// Returns the errors of a solution on triangles or tetrahedra. epsilon is that of the scene.
-/// Throws Error for quadrilaterals, and for sizes that do not fit.
+/// Returns the errors of a solution. epsilon is that of the scene. Throws Error for sizes that do
+/// not fit.
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon,
                       const Reference& reference);
 

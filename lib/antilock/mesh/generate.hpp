@@ -59,7 +59,7 @@ enum class Mesher { mesh_adapt = 1, delaunay = 5, frontal = 6 };  ///< gmsh's ow
 /// cut into four by its midpoints, k times. So the angles are those of the coarse mesh, and inside
 /// of its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512. Tetrahedra are made
 /// by gmsh's Delaunay algorithm, whatever the mesher of their surfaces, for 1 <= cells <= 64.
-/// Quadrilaterals are refused.
+/// Quadrilaterals are gmsh's recombined triangles, for 1 <= cells <= 128.
 TriangleMesh unstructured_mesh(int cells, const Domain& domain = {},
                                Mesher mesher = Mesher::frontal);
 

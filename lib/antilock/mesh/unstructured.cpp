@@ -44,9 +44,16 @@ void snap_to_outline(Points& points, double depth) {
 }
 
 /// gmsh's mesh of Figure 2, with edges of about h in the body and h_layer along and below Sigma.
-MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
+/// Quadrilaterals are pairs of its triangles. A triangle without a partner would remain, so gmsh
+/// pairs the triangles of a mesh of width 2 h, and then cuts each cell into quadrilaterals from its
+/// centre to the midpoints of its edges (RecombinationAlgorithm 3, "blossom full-quad").
+MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher, CellKind kind) {
   GmshSession gmsh;
   gmsh.set("Mesh.Algorithm", static_cast<int>(mesher));
+  if (kind == CellKind::quadrilateral) {
+    gmsh.set("Mesh.RecombineAll", 1);
+    gmsh.set("Mesh.RecombinationAlgorithm", 3);
+  }
   const int a = gmsh.add_point(0, 0, h_layer),
             b = gmsh.add_point(1, 0, h_layer);  // the ends of Sigma
   const int top_left = gmsh.add_point(0, 1, h), top_right = gmsh.add_point(1, 1, h),
@@ -57,7 +64,7 @@ MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
     const int d = gmsh.add_point(0, -depth, h_layer), e = gmsh.add_point(1, -depth, h_layer);
     gmsh.add_surface({gmsh.add_line(d, e), gmsh.add_line(e, b), -sigma, gmsh.add_line(a, d)});
   }
-  MeshArrays made = gmsh.generate();
+  MeshArrays made = gmsh.generate(kind);
   snap_to_outline(made.first, depth);
   return made;
 }
@@ -132,16 +139,30 @@ MeshArrays kept_mesh(const std::string& name, CellKind kind, Make&& make) {
   return made;
 }
 
+/// Throws where gmsh has left triangles without a partner: the quadrilaterals then have holes.
+void check_filled(const TriangleMesh& mesh, double area) {
+  double covered = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t) covered += mesh.measure(t);
+  if (!(std::abs(covered - area) < 1e-9 * area))
+    throw MeshError(
+        fmt::format("mesh: gmsh covers {:.6g} of the area {:.6g} with quadrilaterals; accepted: "
+                    "another number of cells, or a structured mesh",
+                    covered, area));
+}
+
 /// A number >= 0 as printf's %a writes it. fmt 10 writes 0 as 0x0p-1022.
 std::string hexadecimal(double x) { return x == 0 ? "0x0p+0" : fmt::format("{:a}", x); }
 
 }  // namespace
 
 TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
-  if (domain.kind == CellKind::quadrilateral)
-    throw Error("mesh: an unstructured mesh of quadrilaterals; accepted: triangles or tetrahedra");
   const bool in_space = domain.kind == CellKind::tetrahedron;
-  check_mesh_request(cells, in_space ? most_unstructured_in_space : most_unstructured, domain);
+  const bool recombined = domain.kind == CellKind::quadrilateral;
+  constexpr int most_to_recombine = 128;  // not refined beyond
+  int most = most_unstructured;
+  if (in_space) most = most_unstructured_in_space;
+  if (recombined) most = most_to_recombine;
+  check_mesh_request(cells, most, domain);
   const double depth = domain.layer_depth, h = 1.0 / cells,
                h_layer = depth > 0 ? std::min(h, depth / 2) : h;
   // gmsh's seconds grow faster than its triangles: 0.5 s at 64 cells, 4 at 128, 28 at 256
@@ -160,11 +181,13 @@ TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
                   domain.kind, [&] { return boxes_by_gmsh(depth, h, h_layer); });
     return tag_by_position(std::move(vertices), std::move(tetrahedra), domain.kind);
   }
-  auto [vertices, triangles] =
-      kept_mesh(fmt::format("unstructured{}_{}_{}_{}", static_cast<int>(mesher), hexadecimal(depth),
-                            hexadecimal(h_made), hexadecimal(h_layer_made)),
-                domain.kind, [&] { return by_gmsh(depth, h_made, h_layer_made, mesher); });
-  TriangleMesh mesh = tag_by_position(std::move(vertices), std::move(triangles));
+  auto [vertices, triangles] = kept_mesh(
+      fmt::format("{}{}_{}_{}_{}", recombined ? "recombined" : "unstructured",
+                  static_cast<int>(mesher), hexadecimal(depth), hexadecimal(h_made),
+                  hexadecimal(h_layer_made)),
+      domain.kind, [&] { return by_gmsh(depth, h_made, h_layer_made, mesher, domain.kind); });
+  TriangleMesh mesh = tag_by_position(std::move(vertices), std::move(triangles), domain.kind);
+  if (recombined) check_filled(mesh, 1 + depth);
   for (int i = 0; i < halvings; ++i) mesh = refined(mesh);
   return mesh;
 }

@@ -22,6 +22,7 @@ namespace {
 Eigen::VectorXd friction_bounds(const Profile& g, const Space& space) {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(space.size());
   const TriangleMesh& mesh = space.mesh();
+  require_triangles(mesh, "friction");
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
@@ -97,7 +98,7 @@ void append_equations(VariationalInequality& problem, const Space& space, int fi
 
 void add_block_loading(VariationalInequality& problem, const BlockLoading& press,
                        const VectorSpace& space, const StiffnessRange* range) {
-  require_triangles(space.x.mesh(), "plane strain");
+  require_plane(space.x.mesh(), "plane strain");
   if (!std::isfinite(press.prescribed_displacement))
     throw Error("plane strain: push is not finite");
   if (!(press.jump_weight >= 0))
@@ -130,7 +131,7 @@ void add_block_loading(VariationalInequality& problem, const BlockLoading& press
 }
 
 VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& space) {
-  require_triangles(space.x.mesh(), "plane strain");
+  require_plane(space.x.mesh(), "plane strain");
   if (!(scene.epsilon >= 0 && scene.epsilon <= 1))
     throw Error(
         fmt::format("plane strain: epsilon = 1/lambda = {}; accepted 0 to 1", scene.epsilon));
@@ -149,7 +150,7 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
 }
 
 TriangleMesh with_free_sides(TriangleMesh mesh) {
-  require_triangles(mesh, "free sides");
+  require_plane(mesh, "free sides");
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const double x0 = mesh.vertices(mesh.edges(e, 0), 0), x1 = mesh.vertices(mesh.edges(e, 1), 0);
     if (mesh.edge_triangles(e, 1) < 0 && x0 == x1 && (x0 == 0 || x0 == 1))

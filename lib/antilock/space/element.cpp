@@ -15,8 +15,12 @@ Eigen::VectorXd means_on_facet(const Element& element, int i) {
 
 const Element& element(const std::string& name, CellKind kind) {
   if (kind == CellKind::quadrilateral) {
-    if (name == q1().name()) return q1();
-    throw Error("element: \"" + name + "\" is unknown on quadrilaterals; accepted \"Q1\"");
+    for (const Element* candidate : {&q1(), &q1(Integration::selective), &q1(Integration::reduced),
+                                     &rotated_q1(), &rotated_q1_plus()})
+      if (candidate->name() == name) return *candidate;
+    throw Error("element: \"" + name +
+                "\" is unknown on quadrilaterals; accepted \"Q1\", \"Q1-selective\", "
+                "\"Q1-reduced\", \"Q1rot\" and \"Q1rot+\"");
   }
   if (kind == CellKind::tetrahedron) {
     for (const Element* candidate : {&p1(kind), &p2(kind), &crouzeix_raviart(kind)})

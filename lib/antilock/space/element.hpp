@@ -15,6 +15,13 @@ struct DofFunctional {
   Eigen::VectorXd weights;  ///< q
 };
 
+/// The points at which the forms of an element of quadrilaterals are evaluated.
+enum class Integration {
+  full,       ///< two by two Gauss points
+  selective,  ///< the centre of the cell for the rows of B, two by two points for A1
+  reduced,    ///< the centre of the cell for both
+};
+
 /// A finite element on the reference cell of its kind: its m unknowns, their support points and its
 /// basis, in the coordinates xi of the cell. The local order of the unknowns is: vertices, edges,
 /// in space the faces, the interior, each in the order of the cell.
@@ -28,8 +35,16 @@ class Element {
   /// loads follows from k.
   virtual int degree() const = 0;
   virtual int basis_degree() const { return degree(); }  ///< the polynomial degree of the basis
-  virtual bool conforming() const { return true; }       ///< V_h is a subspace of V: no jumps
-  virtual int dofs_per_vertex() const = 0;               ///< unknowns at a vertex
+  /// Returns the degree of the rule for A1 (gradient_quadrature). By default the rule is exact for
+  /// the product of two derivatives, of degree 2 (k - 1) on a simplex. On a square a derivative by
+  /// s is of degree k in t. So there the degree is 2 k in s and in t.
+  virtual int gradient_degree() const {
+    return 2 * (reference_cell(kind_).simplex ? degree() - 1 : degree());
+  }
+  /// Returns the degree of the rule for the rows of B (strain_quadrature).
+  virtual int strain_degree() const { return gradient_degree(); }
+  virtual bool conforming() const { return true; }  ///< V_h is a subspace of V: no jumps
+  virtual int dofs_per_vertex() const = 0;          ///< unknowns at a vertex
   /// Unknowns on an edge, ordered from its first vertex to its second one.
   virtual int dofs_per_edge() const = 0;
   virtual int dofs_per_face() const { return 0; }  ///< unknowns on a face of a tetrahedron, 0 or 1
@@ -86,9 +101,13 @@ Eigen::VectorXd means_on_facet(const Element& element, int i);
 /// and one on the triangle (space/hybrid_bdm1.cpp). fortin_soulie is the same with one equation per
 /// triangle: nonconforming P2 (space/fortin_soulie.cpp). It is for plane strain. q1 is bilinear on
 /// the reference square. P1 and CR are elements of triangles or of tetrahedra, and so is P2. The
-/// others but q1 are of triangles.
+/// last three are of quadrilaterals, and all others of triangles.
+///
+/// q1 has its name and an integration: "Q1", "Q1-selective" or "Q1-reduced". rotated_q1 is the
+/// nonconforming element of Rannacher and Turek. Its unknowns are means over edges.
+/// rotated_q1_plus has one more unknown per cell, and contains the affine functions on each
+/// quadrilateral (space/rotated_q1.cpp).
 const Element& p1(CellKind kind = CellKind::triangle);
-const Element& q1();
 const Element& p2(CellKind kind = CellKind::triangle);
 const Element& p3();
 const Element& p4();
@@ -97,12 +116,15 @@ const Element& p1_bubble();
 const Element& discontinuous_p1();
 const Element& hybrid_bdm1();
 const Element& fortin_soulie();
+const Element& q1(Integration integration = Integration::full);
+const Element& rotated_q1();
+const Element& rotated_q1_plus();
 /// Returns one of P1 to P6 by its degree, on tetrahedra P1 or P2. Throws Error for another degree,
 /// and for quadrilaterals.
 const Element& lagrange(int degree, CellKind kind = CellKind::triangle);
 /// Returns an element of a kind by its name: on triangles "P1" to "P6", "CR", "P1+bubble" or
-/// "BDM1-hybrid" (for short "M2"), on tetrahedra "P1", "P2" or "CR", and on quadrilaterals "Q1".
-/// Throws Error for another name.
+/// "BDM1-hybrid" (for short "M2"), on tetrahedra "P1", "P2" or "CR", and on quadrilaterals "Q1",
+/// "Q1-selective", "Q1-reduced", "Q1rot" or "Q1rot+". Throws Error for another name.
 const Element& element(const std::string& name, CellKind kind = CellKind::triangle);
 
 }  // namespace antilock

@@ -1,4 +1,4 @@
-// Errors on tetrahedra, against functions whose errors are known.
+// Errors on tetrahedra and on quadrilaterals, against functions whose errors are known.
 #include "antilock/measure/errors.hpp"
 
 #include "antilock/form/gradient_forms.hpp"
@@ -69,12 +69,33 @@ TEST(ErrorsInSpace, OfInterpolantsOfAffineElementsHaveOrdersOneAndTwo) {
   }
 }
 
-TEST(ErrorsInSpace, AreRefusedOnQuadrilaterals) {
-  const Space space(structured_mesh(2, {0, CellKind::quadrilateral}), q1());
-  Solution solution;
-  solution.u = Eigen::VectorXd::Zero(space.size());
-  expect_refused([&] { measure_errors(space, solution, 1, quadratic()); },
-                 "accepted: triangles and tetrahedra");
+// u = x y is in Q1 on rectangles, and u_h = u + 1 has the error 1. Its layer stress x is linear.
+TEST(ErrorsOnQuadrilaterals, AreThoseOfAConstant) {
+  const Reference bilinear{[](double x, double y) { return x * y; },
+                           [](double x, double y) { return Eigen::Vector2d(y, x); },
+                           [](double x, double) { return x; }};
+  const Space space(structured_mesh(3, {1, CellKind::quadrilateral}), q1());
+  Solution solution = interpolant(space, bilinear);
+  Errors errors = measure_errors(space, solution, 1, bilinear);
+  EXPECT_LT(errors.max + errors.h1 + errors.energy, round_off);
+  solution.u.array() += 1;
+  errors = measure_errors(space, solution, 1, bilinear);
+  EXPECT_NEAR(errors.max, 1, round_off);
+  EXPECT_NEAR(errors.h1, std::sqrt(2), round_off);
+  EXPECT_LT(errors.energy, 1e-10);
+}
+
+// The same on cells that are no rectangles, where Q1 has the affine functions, and with one layer
+// stress per cell.
+TEST(ErrorsOnQuadrilaterals, VanishForAffineFunctions) {
+  const Reference affine{[](double x, double y) { return x - 2 * y; },
+                         [](double, double) { return Eigen::Vector2d(1, -2); },
+                         [](double, double) { return -2.0; }};
+  for (const Element* element : {&q1(), &q1(Integration::reduced), &rotated_q1_plus()}) {
+    const Space space(jittered_mesh(3, 0.2, {1, CellKind::quadrilateral}), *element);
+    const Errors errors = measure_errors(space, interpolant(space, affine), 1, affine);
+    EXPECT_LT(errors.max + errors.h1 + errors.energy, round_off) << element->name();
+  }
 }
 
 }  // namespace antilock::test::measure_test::errors_in_space_test

@@ -177,9 +177,12 @@ TEST(PlaneOnly, Files) {
 
 TEST(PlaneOnly, Quadrilaterals) {
   const Space space(structured_mesh(2, {1, CellKind::quadrilateral}), q1());
-  expect_refused([&] { h1_gram_matrix(space); }, "accepted: triangles and tetrahedra");
-  expect_refused([&] { measure_errors(space, {}, 1, zero()); }, "accepted: triangles");
   expect_refused([&] { layer_components(space.mesh()); }, "accepted: triangles");
+  PlaneStrain rough;
+  rough.friction = [](double) { return 1.0; };
+  const Space block(structured_mesh(2, {0, CellKind::quadrilateral}), q1());
+  expect_refused([&] { assemble(rough, VectorSpace{block, block}); }, "accepted: triangles");
+  expect_refused([&] { assemble(Coating{}, VectorSpace{block, block}); }, "accepted: triangles");
   expect_refused([&] { space.mesh().area(0); }, "accepted: triangles");
   expect_refused([&] { PointValues{space}; }, "accepted: triangles and tetrahedra");
 }

@@ -2,8 +2,9 @@
 // them.
 #include "antilock/form/edge_forms.hpp"
 #include "antilock/form/gradient_forms.hpp"
-#include "antilock/mesh/quadrature.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/mesh/layered.hpp"
+#include "antilock/mesh/quadrature.hpp"
 #include "antilock/space/cell_map.hpp"
 #include "support/scenes.hpp"
 
@@ -35,8 +36,10 @@ Eigen::VectorXd values(const Space& space, const std::function<double(const Eige
 }
 
 TEST(Cells, FillTheDomainAndShareTheirFacets) {
-  for (const CellKind kind : {CellKind::triangle, CellKind::quadrilateral, CellKind::tetrahedron})
-    for (const auto& [name, mesh] : meshes(kind, 3)) {
+  for (const CellKind kind : {CellKind::triangle, CellKind::quadrilateral, CellKind::tetrahedron}) {
+    std::vector<NamedMesh> all = meshes(kind, 3);
+    all.push_back({"gmsh", unstructured_mesh(3, {1, kind})});
+    for (const auto& [name, mesh] : all) {
       double volume = 0, boundary = 0, contact = 0, sigma = 0;
       for (int t = 0; t < mesh.triangle_count(); ++t) {
         ASSERT_GT(mesh.measure(t), 0) << name;
@@ -52,6 +55,23 @@ TEST(Cells, FillTheDomainAndShareTheirFacets) {
       EXPECT_NEAR(contact, 1, round_off) << name << mesh.reference().name;
       EXPECT_NEAR(sigma, 1, round_off) << name << mesh.reference().name;
     }
+  }
+}
+
+// The Jacobian of a quadrilateral is affine in s and t, and positive if it is so at the corners.
+TEST(Cells, QuadrilateralsAreConvex) {
+  constexpr CellKind kind = CellKind::quadrilateral;
+  for (const Mesh& mesh : {jittered_mesh(8, 0.2, {1, kind}), unstructured_mesh(8, {1, kind})})
+    for (int t = 0; t < mesh.triangle_count(); ++t)
+      for (int i = 0; i < 4; ++i)
+        EXPECT_GT(CellMap<kind>(mesh, t).at(reference_vertex(kind, i)).factor, 0);
+}
+
+TEST(Cells, RecombinedMeshesAreTheSameInEveryCall) {
+  const Domain squares{1, CellKind::quadrilateral};
+  const Mesh one = unstructured_mesh(4, squares), two = unstructured_mesh(4, squares);
+  EXPECT_EQ(one.vertices, two.vertices);
+  EXPECT_EQ(one.triangles, two.triangles);
 }
 
 // The order of the vertices of a facet gives the outward normal: the divergence theorem for the
@@ -127,6 +147,18 @@ TEST(Cells, GiveAffineFunctionsTheirEnergy) {
       const Eigen::SparseMatrix<double> whole = gradient_form(space, {1, 1}, {1, 1});
       EXPECT_LT((gram_matrix(gradient_rows(space, unit)) - whole).norm(), 1e-12 * whole.norm())
           << element->name();
+    }
+}
+
+// |w|^2 + ||w||^2 of w = x - 2 y over (0, 1) x (-1, 1): 5 * 2 + int x^2 + 4 y^2 - 4 x y = 10 + 2/3 +
+// 8/3.
+TEST(Cells, GiveAffineFunctionsTheirNormOnQuadrilaterals) {
+  for (const auto& [name, mesh] : meshes(CellKind::quadrilateral, 3))
+    for (const Element* element : {&q1(), &rotated_q1_plus()}) {
+      const Space space(mesh, *element);
+      const Eigen::VectorXd w = dof_values(space, [](double x, double y) { return x - 2 * y; });
+      EXPECT_NEAR(w.dot(h1_gram_matrix(space) * w), 40.0 / 3, 1000 * round_off)
+          << name << element->name();
     }
 }
 
@@ -209,11 +241,7 @@ TEST(Cells, AreRefusedWhereTheElementIsOfAnotherKind) {
                  "accepted \"P1\", \"P2\" and \"CR\"");
   expect_refused([] { element("P1", CellKind::quadrilateral); }, "accepted \"Q1\"");
   expect_refused([] { structured_mesh(129, {1, CellKind::tetrahedron}); }, "accepted 1 to 128");
-  expect_refused(
-      [] {
-        unstructured_mesh(2, {1, CellKind::quadrilateral});
-      },
-      "accepted: triangles or tetrahedra");
+  expect_refused([] { unstructured_mesh(129, {1, CellKind::quadrilateral}); }, "accepted 1 to 128");
 }
 
 }  // namespace antilock::test::space_test::cells_test

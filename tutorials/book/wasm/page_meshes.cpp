@@ -19,6 +19,9 @@ int main() try {
     if (std::sscanf(line.c_str(), "tetrahedra_%la_%la", &domain.layer_depth, &h) == 2) {
       domain.kind = antilock::CellKind::tetrahedron;
       mesher = static_cast<int>(antilock::Mesher::frontal);
+    } else if (std::sscanf(line.c_str(), "recombined%d_%la_%la", &mesher,
+                           &domain.layer_depth, &h) == 3) {
+      domain.kind = antilock::CellKind::quadrilateral;
     } else if (std::sscanf(line.c_str(), "unstructured%d_%la_%la", &mesher,
                            &domain.layer_depth, &h) != 3) {
       fmt::print(stderr, "page_meshes: \"{}\" names no mesh\n", line);

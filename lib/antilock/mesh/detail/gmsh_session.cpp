@@ -240,10 +240,10 @@ std::pair<Points, IndexRows> GmshSession::generate(CellKind kind) const {
                                         &coordinate_count, &parameters, &parameter_count,
                                         /*dim: all*/ -1, -1, 0, 0);
   if (parameters != nullptr) free_by_gmsh(parameters);
-  constexpr int triangles = 2, tetrahedra = 4;  // gmsh's own numbers
+  constexpr std::array<int, 3> types{2, 3, 4};  // gmsh's own numbers, in the order of CellKind
   call<decltype(gmshModelMeshGetElementsByType)>(
-      "gmshModelMeshGetElementsByType", kind == CellKind::triangle ? triangles : tetrahedra,
-      &elements, &element_count, &nodes, &node_count, /*tag: all*/ -1, /*task*/ 0, /*numTasks*/ 1);
+      "gmshModelMeshGetElementsByType", types[static_cast<std::size_t>(kind)], &elements,
+      &element_count, &nodes, &node_count, /*tag: all*/ -1, /*task*/ 0, /*numTasks*/ 1);
   free_by_gmsh(elements);
   const std::vector<double> xyz = taken(coordinates, coordinate_count);
   const std::vector<std::size_t> corners = taken(nodes, node_count);

@@ -55,8 +55,8 @@ class GmshSession {
   int add_surface(std::array<int, 4> lines) const;
   /// Adds the volume inside six surfaces.
   void add_volume(std::array<int, 6> surfaces) const;
-  /// Makes the triangles of the geometry, surface by surface, or its tetrahedra, volume by volume.
-  /// Returns their vertices and corners.
+  /// Makes the triangles or quadrilaterals of the geometry, surface by surface, or its tetrahedra,
+  /// volume by volume. Returns their vertices and corners.
   std::pair<Points, IndexRows> generate(CellKind kind = CellKind::triangle) const;
 
   /// Returns the tags of the curves of a geometry. Throws Error where gmsh cannot read it.
