@@ -166,7 +166,7 @@ LossBesideColumns loss_beside_columns(const Scene& scene, const Result& result) 
 
   const double of_u = energy(result.problem, result.solution);
   const double height = height_at_rest(result);
-  const double at_rest = least_energy(with_layer_at_rest(result.problem, space, height));
+  double at_rest = least_energy(with_layer_at_rest(result.problem, space, height));
   const double of_columns = least_energy(problem);
   // Each energy is that of a solution with the tolerance 1e-10. A motion as a whole costs no energy
   // but round-off. The layer at the height 0 does not follow it, and has an energy of its size.
@@ -174,7 +174,11 @@ LossBesideColumns loss_beside_columns(const Scene& scene, const Result& result) 
   if (height != 0) {
     VariationalInequality without_bounds = result.problem;
     without_bounds.bounds = {};
-    scale = std::max(scale, std::abs(least_energy(with_layer_at_rest(without_bounds, space))));
+    const double at_zero = least_energy(with_layer_at_rest(without_bounds, space));
+    scale = std::max(scale, std::abs(at_zero));
+    const Bounds& bounds = result.problem.bounds;
+    if (bounds.unknowns.empty() || (bounds.lower.maxCoeff() <= 0 && bounds.upper.minCoeff() >= 0))
+      at_rest = std::min(at_rest, at_zero);
   }
   const double round_off = 1e-10 * scale;
   const auto released_by = [&](double least) {

@@ -7,8 +7,8 @@ namespace antilock {
 /// The energy that a conforming element loses on tetrahedra, by its own solutions on another mesh:
 /// the same body, and below each face of Sigma, the interface of body and layer, a column. With J
 /// as in LockingLoss, u_c the solution on columns, and v_0 the function of least energy whose layer
-/// is at rest: u = 0 in a layer with clamped sides, otherwise the mean of u_h in the layer, moved
-/// into the bounds,
+/// is at rest: u = 0 in a layer with clamped sides, otherwise 0 or the mean of u_h in the layer,
+/// moved into the bounds, whichever has less energy,
 ///
 ///     estimate = J(u_h) - J(u_c),   reference = J(v_0) - J(u_c).
 ///
