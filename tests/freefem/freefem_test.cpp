@@ -559,8 +559,8 @@ TEST(FreeFemScripts, AdaptmeshDoesNotSeeTheLocking) {
   const freefem::ScriptTable table = freefem::read_table(folder / "adaptmesh.csv", 1);
   ASSERT_EQ(table.rows.rows(), 14);
   const auto at = [&](const char* name, int row) { return table.column(name)(row); };
-  // The share of the vertices that lie in the layer, after six rounds. Measured: 0.015 and 0.120 with
-  // FreeFEM 4.9, 0.015 and 0.099 with 4.15, whose meshes are other ones.
+  // The share of the vertices that lie in the layer, after six rounds. Measured: 0.015 and 0.120
+  // with FreeFEM 4.9, 0.015 and 0.099 with 4.15, whose meshes are other ones.
   const double locked = at("in_layer", 6) / at("vertices", 6),
                free = at("in_layer", 13) / at("vertices", 13);
   EXPECT_LT(locked, 0.05);
