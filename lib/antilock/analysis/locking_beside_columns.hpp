@@ -28,9 +28,10 @@ struct LossBesideColumns {
 };
 
 /// Computes the loss by two solves, by one more where the obstacle between vertices is above the
-/// affine function through them, and by one more where the sides of the layer are free. Throws Error for another element or mesh, for a layer whose
-/// sides are not all clamped or all free, where the layer at rest is beyond an obstacle, and where
-/// no function on columns is above it. Throws as active_set does.
+/// affine function through them, and by one more where the sides of the layer are free. Throws
+/// Error for another element or mesh, for a layer whose sides are not all clamped or all free,
+/// where the layer at rest is beyond an obstacle, and where no function on columns is above it.
+/// Throws as active_set does.
 LossBesideColumns loss_beside_columns(const Scene& scene, const Result& result);
 
 }  // namespace antilock
