@@ -27,8 +27,8 @@
 // reduced integration, selective integration, B-bar. In the *jittered* mesh of squares each
 // vertex inside of the body or of the layer has moved by up to $0.2 h$ in $x$ and in $y$.
 // (a) Which of the four switches does not lock on the jittered mesh? (b) How much do the
-// results of selective integration and of B-bar differ there? (c) On which number of
-// functions is the energy 0 if each form has one point per cell, and nothing is clamped?
+// results of selective integration and of B-bar differ there? (c) How many independent
+// functions have no energy if each form has one point per cell, and nothing is clamped?
 //
 // ## The switches
 //
@@ -76,13 +76,14 @@
 //
 // ## Functions without strain
 //
-// **Full.** An affine function of $s$ and $t$ that is 0 at the two by two points is 0. So
-// the three coefficients above are 0 if $u$ has no strain. They are the components of the cross product of
-// $(b, c, d)$ and $(β, γ, δ)$, up to signs. So the second vector is a multiple of the
-// first, that is, $u = α' + β' x$ on the cell. This leaves two of four unknowns: there are
-// two conditions per cell. Two cells that share an edge which is not vertical have the same
-// function. The structured mesh keeps $n - 1$ functions, $n = 1/h$, because it is aligned.
-// On the jittered mesh all cells of the layer are tied, and 0 is left.
+// **Full.** An affine function of $s$ and $t$ that is 0 at the two by two points is 0.
+// So the three coefficients above are 0 if $u$ has no strain. They are the components of
+// the cross product of $(b, c, d)$ and $(β, γ, δ)$, up to signs. So the second vector is
+// a multiple of the first, that is, $u = α' + β' x$ on the cell. This leaves two of four
+// unknowns: there are two conditions per cell. Two cells that share an edge which is not
+// vertical have the same function. The structured mesh keeps $n - 1$ functions, with
+// $n = 1/h$, because it is aligned. On the jittered mesh all cells of the layer are tied,
+// and 0 is left.
 //
 // **Selective, B-bar, reduced.** One condition per cell. Let the layer have $N$ cells, and
 // $E_Σ$, $E_C$ and $E_D$ edges on Σ, on $Γ_C$ and on the clamped sides. By Euler's formula
@@ -200,10 +201,9 @@
 //   This is as many as chapter 26 asks for. With full integration there are $3 n^2$
 //   conditions.
 //
-// **So the switch that only hides locking in the layer may cure it in rubber.** Not the
-// switch decides, but the number of functions that it leaves. (Left functions are not
-// enough for pressures: one pressure per cell is not stable on squares. Chapter 29 is about
-// this.)
+// **So the switch that only hides locking in the layer may cure it in rubber.** The number
+// of functions that are left decides, and not the switch. (For pressures this number is not
+// enough: one pressure per cell is not stable on squares. Chapter 29 is about this.)
 //
 // ## Where the error goes
 //
@@ -586,7 +586,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // :number: 72 = table "functions without strain" jittered switch="rotated, means"
 // :number: 36 = 0.5 * table "functions without strain" jittered switch="rotated, means"
 //
-// (b) Not at all: the matrices agree to round-off. (c) On two: the constants and the
+// (b) Not at all: the matrices agree to round-off. (c) Two: the constants and the
 // hourglass mode.
 //
 // :figure: switches_errors
