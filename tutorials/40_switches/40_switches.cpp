@@ -27,8 +27,8 @@
 // reduced integration, selective integration, B-bar. In the *jittered* mesh of squares each
 // vertex inside of the body or of the layer has moved by up to $0.2 h$ in $x$ and in $y$.
 // (a) Which of the four switches does not lock on the jittered mesh? (b) How much do the
-// results of selective integration and of B-bar differ there? (c) On which number of
-// functions is the energy 0 if each form has one point per cell, and nothing is clamped?
+// results of selective integration and of B-bar differ there? (c) How many independent
+// functions have no energy if each form has one point per cell, and nothing is clamped?
 //
 // ## The switches
 //
@@ -40,9 +40,10 @@
 // - **full**: two by two Gauss points, for $a_0$ and $a_1$.
 // - **selective**: one point for $a_0$, the centre of the cell, and two by two for $a_1$
 //   (Malkus and Hughes).
-// - **B-bar** (Hughes): $∂_y u$ is replaced by its mean over the cell. In elasticity this
-//   is the mean dilatation. Here it is the projection of the layer strain to a constant per
-//   cell, in the words of chapter 28 a group for each cell.
+// - **B-bar** (Hughes): the stiff part of the strain is replaced by its mean over the cell,
+//   and the rest is kept. In elasticity the stiff part is $\operatorname{div} u$, and its
+//   mean is called the mean dilatation. In the layer it is $∂_y u$: in the words of chapter
+//   28 there is a group for each cell.
 // - **reduced**: one point for both.
 // - **stabilised** (Flanagan and Belytschko): reduced, and in $a_1$ the energy of the
 //   *hourglass part* of $u$. This is $S T$, $S = 2 s - 1$ and $T = 2 t - 1$, which is 1 and
@@ -53,12 +54,16 @@
 // - **rotated** (Rannacher and Turek): not continuous. The functions are those of $1, S, T$
 //   and $S^2 - T^2$, and the unknowns are the means over the edges. A function of $x$ and
 //   $y$ that is affine has a term in $S T$ on a cell that is no parallelogram. So here
-//   $S T$ is the fifth function, whose mean over each edge is 0 (Cai, Douglas and Ye).
-//   Without it the patch test fails.
+//   $S T$ is the fifth function, whose mean over each edge is 0 (Cai, Douglas, Santos,
+//   Sheen and Ye). Without it the patch test fails. (Rannacher and Turek cure this in
+//   another way: in place of $S$ and $T$ they take Cartesian coordinates of each cell.)
 //
-// **B-bar is selective integration.** *On any quadrilateral of the plane, the mean of
-// $∂_y u$ over the cell is its value at the centre.* Let $|J| = x_s y_t - x_t y_s$ be the
-// Jacobian of the map. Then
+// The cells are convex, and there are three families of meshes: *structured*, squares;
+// *jittered*, as above; and *recombined*, gmsh's triangles joined in pairs.
+//
+// **B-bar is selective integration.** *On any convex quadrilateral of the plane, the mean
+// of $∂_y u$ over the cell is its value at the centre.* Let $|J| = x_s y_t - x_t y_s$ be
+// the Jacobian of the map. Then
 //
 // $$ |J|\, ∂_y u = x_s u_t - x_t u_s
 //   = (bγ - cβ) + (bδ - dβ) s + (dγ - cδ) t: $$
@@ -66,16 +71,19 @@
 // the terms in $s t$ cancel. So $|J|\, ∂_y u$ is affine in $s$ and $t$, and $|J|$ itself
 // is, too. The integral of an affine function over the square is its value at the centre.
 // The mean is the quotient of two such integrals. ∎ For hexahedra this is false, and for
-// the rotated element as well: there $|J|\, ∂_y u$ has squares of $s$ and $t$.
+// the rotated element as well: on a cell that is no parallelogram its $|J|\, ∂_y u$ has
+// squares of $s$ and $t$.
 //
 // ## Functions without strain
 //
-// **Full.** The three coefficients above are 0 if and only if $(β, γ, δ)$ is a multiple of
-// $(b, c, d)$, that is, if $u = α' + β' x$ on the cell. (They are the components of the
-// cross product of both.) There are two conditions per cell. Two cells that share an edge
-// which is not vertical then have the same function. The structured mesh keeps $n - 1$
-// functions, $n = 1/h$, because it is aligned. On the jittered mesh all cells of the layer
-// are tied, and 0 is left.
+// **Full.** An affine function of $s$ and $t$ that is 0 at the two by two points is 0.
+// So the three coefficients above are 0 if $u$ has no strain. They are the components of
+// the cross product of $(b, c, d)$ and $(β, γ, δ)$, up to signs. So the second vector is
+// a multiple of the first, that is, $u = α' + β' x$ on the cell. This leaves two of four
+// unknowns: there are two conditions per cell. Two cells that share an edge which is not
+// vertical have the same function. The structured mesh keeps $n - 1$ functions, with
+// $n = 1/h$, because it is aligned. On the jittered mesh all cells of the layer are tied,
+// and 0 is left.
 //
 // **Selective, B-bar, reduced.** One condition per cell. Let the layer have $N$ cells, and
 // $E_Σ$, $E_C$ and $E_D$ edges on Σ, on $Γ_C$ and on the clamped sides. By Euler's formula
@@ -90,13 +98,27 @@
 // $u_{i+1} + u_i$ is the same on its top and on its bottom. The difference of two rows
 // therefore changes its sign from node to node, and it is 0 at the clamped side. So the
 // rows are equal, and $n - 1$ functions are left, those of full integration. On the two
-// other meshes the rank of $B$ shows that nothing is left. So by
-// [chapter 07](../07_kernel/07_kernel.cpp) *each of these switches locks there*: $u_h$
-// tends to 0 on the layer as $ε → 0$.
+// other families the rank of $B$ is computed, and nothing is left on any mesh of this
+// chapter. By [chapter 07](../07_kernel/07_kernel.cpp) *a switch that leaves nothing
+// locks*: $u_h$ tends to 0 on the layer as $ε → 0$.
 //
-// **Rotated, full.** A function without strain is $α + β x$ on each cell, and there is one
-// condition per edge. The rank of $B$ shows that $n - 1$ functions are left on the
-// structured mesh, and none on the other two.
+// **Rotated, full.** Let now $x = a + b S + c T + d S T$, and
+//
+// $$ u = α + β S + γ T + δ S T + κ (S^2 - T^2). $$
+//
+// Then $|J|\, ∂_y u$ is, up to a factor,
+//
+// $$ (bγ - cβ) + (bδ - dβ - 2cκ)\, S + (dγ - cδ - 2bκ)\, T - 2dκ\, (S^2 + T^2), $$
+//
+// and $S^2 + T^2$ is $2/3$ at each of the two by two points. So the three numbers
+// $bγ - cβ - 4dκ/3$, $bδ - dβ - 2cκ$ and $dγ - cδ - 2bκ$ are 0. Multiply them by $d$, $-c$
+// and $-b$, and add. This gives $κ\, (2b^2 + 2c^2 - 4d^2/3) = 0$. On a convex cell $|J|$
+// is positive at the corners. It is a constant times $1 + μS + λT$, where the coefficients
+// of $S T$ in $x$ and in $y$ are λ times those of $S$ plus μ times those of $T$. So
+// $|λ| + |μ| < 1$, hence $d^2 < b^2 + c^2$ and $κ = 0$. As above $u = α' + β' x$ on the
+// cell (proved). On each edge inside of the layer the means of two such functions agree.
+// The rank of $B$ shows that $n - 1$ functions are left on the structured mesh, and none on
+// the other two.
 //
 // **Rotated, means.** There are $½ (4 N + E_Σ + E_C - E_D)$ unknowns on edges that are not
 // clamped, and one in each cell. The $N$ conditions do not follow from each other, by the
@@ -104,52 +126,59 @@
 //
 // $$ 2 N + ½ (E_Σ + E_C - E_D) $$
 //
-// functions are left on *any* mesh (proved): two per cell.
+// functions are left on *any* mesh (proved): two per cell on the meshes here.
 //
 // ## Means over edges and over cells: the cure
 //
 // *The rotated element with means over cells converges uniformly in ε on each shape-regular
 // family of convex quadrilaterals* (proved). Chapter 28 asks for (i) to (iv).
 //
-// (ii) Let $I_h w$ have the mean of $w$ over each edge. By Green's formula the mean of
-// $∂_y I_h w$ over a cell needs only these means. So it is the mean of $∂_y w$, and 0 for a
-// function of $x$ alone: $I_h$ maps $K_0$ into $K_{0h}$, and $K$ into $K_h$. Affine
-// functions are reproduced, so that the error of $I_h w$ is of order $h$ for a smooth $w$.
+// (ii) Let $I_h w$ have the mean of $w$ over each edge, and in each cell the term
+// $¼ (g·w)\, S T$, with the values of $w$ at the corners. By Green's formula the mean of
+// $∂_y I_h w$ over a cell needs only the means over edges. So it is the mean of $∂_y w$,
+// and 0 for a function of $x$ alone: $I_h$ maps the smooth functions of $K_0$ into
+// $K_{0h}$, and those of $K$ into $K_h$. Affine functions are reproduced, so that the error
+// of $I_h w$ is of order $h$ for a smooth $w$. As in
+// [chapter 08](../08_crouzeix_raviart/08_crouzeix_raviart.cpp) smooth functions are enough.
 //
-// (i) On one cell $∂_x v = 0$ and the mean 0 of $∂_y v$ imply that $v$ is constant. For
-// $∂_x v = 0$ says that the gradients of $v$ and of $y$ by $s$ and $t$ are parallel. If $y$
-// has a term in $s t$, its two derivatives have no common factor. Then the gradient of $v$
-// is a number times that of $y$, because both have degree 1. If $y$ is affine in $s$ and
-// $t$, $v$ is a polynomial of $y$. It is affine: a term
-// $(b S + c T)^2$ is in the space only if the coefficients $b^2$ and $c^2$ of $S^2$ and
-// $T^2$ have the sum 0. So $v = α + β y$ in both cases, with the mean slope $β = 0$. Hence
-// $‖∂_x v‖^2 + |T|\, (\text{mean of } ∂_y v)^2 ≥ c ‖∇v‖^2$ on a cell $T$, with one $c$ for
-// all cells of bounded shapes, which are a compact set. With the inequality of Poincaré and
-// Friedrichs for functions whose jumps have the mean 0 (Brenner) the form is coercive.
+// (i) Let on one cell $∂_x v$ be 0 at the two by two points, and let the mean of $∂_y v$ be
+// 0. By the first, $v = α' + β' y$: this is the proof for *rotated, full*, with $y$ in
+// place of $x$. By the second $β' = 0$. So only constants have no energy. Hence
+// $‖∂_x v‖^2 + |T|\, (\text{mean of } ∂_y v)^2 ≥ c ‖∇v‖^2$ on a cell $T$ of the layer.
+// There is one $c$ for all cells, because their shapes are in a compact set (shape-regular:
+// after scaling, $|J|$ stays away from 0). In the body $a_1$ has the whole gradient. With
+// the inequality of Poincaré and Friedrichs for functions whose jumps have the mean 0
+// (Brenner) the form is coercive.
 //
 // (iii), (iv) The means over cells are an $L_2$ projection onto constants per cell, as in
 // chapter 28. Jumps have the mean 0 on each edge, so that weak limits lie in $V$, as for
-// Crouzeix-Raviart. ∎
+// Crouzeix-Raviart. The two by two points in $a_1$ change no limit: they are exact for
+// $|J|\, ∂_x v$ and $|J|\, ∂_y v$, so for a gradient times constants per cell. In each
+// limit of chapter 28 one of the two gradients converges, and constants come near it. ∎
 //
 // $Q_1$ with means has (i), (iii) and (iv), by the same proof: its form is coercive. It
-// fails at (ii) alone. *It is stable, and converges for each ε, so nothing looks wrong: the
-// worst kind of failure.*
+// fails at (ii) alone. *It is stable, and converges for each ε, so that a test at one ε
+// may find nothing wrong.*
 //
 // ## One point for all: modes without energy
 //
-// The gradient at the centre is determined by $u_2 - u_0$ and $u_3 - u_1$, along the two
-// diagonals, which are independent. So it is 0 on all cells if and only if $u$ is equal at
-// opposite corners of each cell. Colour the vertices with two colours, so that the ends of
-// each edge differ. (This is possible in a domain without holes: a closed path of edges
-// surrounds cells with four edges each, so that it has an even number of edges.) Opposite
-// corners have one colour, and all vertices of a colour are connected by diagonals. So
-// *two functions have no energy: the constants, and the function that is 1 on one colour
-// and -1 on the other, the hourglass mode.* A clamped edge has both colours and removes
-// both modes. But let $w$ be smooth, 0 on the clamped edges, and $v = ± w$ at the vertices,
-// with the signs of the colours. The differences along diagonals are those of $w$. So
-// $a_1(v, v) + a_0(v, v) ≤ C ‖∇w‖^2$, while $‖∇v‖ ≥ c h^{-1} ‖w‖$. The coercivity
-// constant, chapter 28's (i), falls at least like $h^2$ (proved). A smooth load does not
-// excite this mode. **A contact force at one node does.**
+// The gradient at the centre of a cell is determined by the differences of $u$ along its
+// two diagonals. So it is 0 on all cells if and only if $u$ is equal at opposite corners of
+// each cell. Colour the vertices with two colours, so that the ends of each edge differ.
+// (This is possible in a domain without holes: a closed path of edges surrounds cells with
+// four edges each, so that it has an even number of edges.) Opposite corners have one
+// colour. All vertices of a colour are connected by diagonals: on a path of edges from one
+// to another every second vertex has this colour, and two neighbours of a vertex are
+// connected by diagonals of the cells around it. So *two functions have no energy: the
+// constants, and the function that is 1 on one colour and -1 on the other, the hourglass
+// mode.* A clamped edge has both colours and removes both modes.
+//
+// But let $w$ be smooth, 0 on the clamped edges, and $v = ± w$ at the vertices, with the
+// signs of the colours. The differences along diagonals are those of $w$, up to the sign.
+// So $a_1(v, v) + a_0(v, v)$ is at most a constant, while $‖∇v‖ ≥ c h^{-1}$, because $v$
+// changes by about $2 w$ along each edge. The coercivity constant, chapter 28's (i), falls
+// at least like $h^2$ on shape-regular meshes (proved). A smooth load hardly excites this
+// mode (measured below). **A contact force at one node does.**
 //
 // **Stabilised is selective.** On a cell $u$ is an affine function of $x$ and $y$ plus a
 // multiple of $S T$, because $1$, $x$, $y$ and $S T$ are independent there. The gradient of
@@ -172,10 +201,9 @@
 //   This is as many as chapter 26 asks for. With full integration there are $3 n^2$
 //   conditions.
 //
-// **So the switch that only hides locking in the layer may cure it in rubber.** Not the
-// switch decides, but the number of functions that it leaves. (Left functions are not
-// enough for pressures: one pressure per cell is not stable on squares. Chapter 29 is about
-// this.)
+// **So the switch that only hides locking in the layer may cure it in rubber.** The number
+// of functions that are left decides, and not the switch. (For pressures this number is not
+// enough: one pressure per cell is not stable on squares. Chapter 29 is about this.)
 //
 // ## Where the error goes
 //
@@ -558,7 +586,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // :number: 72 = table "functions without strain" jittered switch="rotated, means"
 // :number: 36 = 0.5 * table "functions without strain" jittered switch="rotated, means"
 //
-// (b) Not at all: the matrices agree to round-off. (c) On two: the constants and the
+// (b) Not at all: the matrices agree to round-off. (c) Two: the constants and the
 // hourglass mode.
 //
 // :figure: switches_errors
@@ -577,9 +605,9 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // :output: epsilon at which half is kept, recombined
 //
 // With full integration half is lost at ε = 0.27 $h$ on the jittered meshes. With one
-// condition per cell it is lost at a much smaller ε, which follows no law: from $h = 1/12$
-// to $1/16$ on recombined meshes it *rises*, from 3.87e-05 to 0.000129. There is one
-// condition more than there are unknowns, and it depends on the mesh how nearly the
+// condition per cell it is lost at a much smaller ε, in which no law is seen: from
+// $h = 1/12$ to $1/16$ on recombined meshes it *rises*, from 3.87e-05 to 0.000129. There is
+// one condition more than there are unknowns, and it depends on the mesh how nearly the
 // conditions depend on each other.
 // :number: 0.27 = 16 * table "epsilon at which half is kept, jittered" full h=0.0625
 // :number: 3.87e-05 = table "epsilon at which half is kept, recombined" selective h=0.0833
@@ -599,8 +627,9 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // :output: force of the pin
 //
 // One point for all has a coercivity constant of 0.0592 on squares with $h = 1/8$, where
-// full integration has 0.914. The pin at ε = 1 finds the mode: on squares the neighbour of
-// the pin stays at 0, and the force is 0.0437 in place of 0.07. On the jittered mesh the
+// full integration has 0.914. (From $h = 1/4$ to $1/8$ it falls more slowly than $h^2$:
+// the proof is about small $h$.) The pin at ε = 1 finds the mode: on squares the neighbour
+// of the pin stays at 0, and the force is 0.0437 in place of 0.07. On the jittered mesh the
 // neighbour has 0.0418 of the height. With the paper's smooth load nothing of this is seen:
 // the errors of *reduced* and *selective* differ by less than 5 % at each ε.
 // :number: 0.0592 = table "coercivity constant" structured switch=reduced
@@ -623,11 +652,11 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // | switch | cures | hides | costs |
 // | --- | --- | --- | --- |
 // | full integration | nothing; right on aligned meshes | | |
-// | selective, B-bar (the same) | rubber, in its displacement; nothing in the layer | locking, down to an ε that depends on the mesh by chance | nothing: a quarter of the rows of $B$ |
+// | selective, B-bar (in the plane the same) | rubber, in its displacement; in the layer nothing, unless the cells are aligned | locking, down to an ε that depends on the mesh by chance | nothing: a quarter of the rows of $B$ |
 // | reduced | nothing | the same, and its own modes under smooth loads | stability: α falls like $h^2$, and contact at a node finds it |
-// | stabilised (with the factor 1 the same as selective) | the modes of reduced | as selective | a parameter; with the modulus of the layer it locks as full integration does (exercise 1) |
+// | stabilised (with the factor 1 the same as selective) | the modes of reduced, not locking | as selective | a parameter; with the modulus of the layer it locks as full integration does (exercise 1) |
 // | rotated, full integration | nothing | as selective | three times as many unknowns |
-// | rotated, means over cells | locking, on each mesh (proved) | nothing | the same; without $S T$ the patch test (exercise 2) |
+// | rotated, means over cells | locking, on shape-regular meshes (proved) | nothing | the same; without $S T$ the patch test (exercise 2) |
 //
 // The cure is neither of the two alone. *Means over cells ask one condition per cell, and
 // means over edges have the functions that satisfy it*: both are the same Green's formula.
@@ -644,17 +673,16 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //    hourglass part across the layer. What becomes of locking on the jittered mesh?
 // 2. The rotated element of four functions, with means over cells. How many functions
 //    without strain has it, does it lock, and does it converge on the jittered meshes?
-// 3. On paper: let the layer have $m$ rows of cells below $n$ edges of Σ. How many
-//    functions does selective integration leave at least, on any mesh?
+// 3. On paper: let Σ and $Γ_C$ have $n$ edges, and each of the two sides of the layer $m$.
+//    How many functions does selective integration leave at least, on any mesh?
 //
 // ## Further reading
 //
 // - S. C. Brenner, *Poincaré-Friedrichs inequalities for piecewise $H^1$ functions*, SIAM
 //   J. Numer. Anal. 41 (2003), 306-324,
 //   [doi:10.1137/S0036142902401311](https://doi.org/10.1137/S0036142902401311).
-// - Z. Cai, J. Douglas, X. Ye, *A stable nonconforming quadrilateral finite element method
-//   for the stationary Stokes and Navier-Stokes equations*, Calcolo 36 (1999), 215-232. The
-//   fifth function.
+// - Z. Cai, J. Douglas, J. E. Santos, D. Sheen, X. Ye, *Nonconforming quadrilateral finite
+//   elements: a correction*, Calcolo 37 (2000), 253-254. The fifth function.
 // - D. P. Flanagan, T. Belytschko, *A uniform strain hexahedron and quadrilateral with
 //   orthogonal hourglass control*, Int. J. Numer. Methods Eng. 17 (1981), 679-706,
 //   [doi:10.1002/nme.1620170504](https://doi.org/10.1002/nme.1620170504).

@@ -63,8 +63,8 @@ WeightedFactoredForm stiff_strain_rows(const VectorSpace& space,
 FactoredForm divergence(const VectorSpace& space);
 
 /// Returns the quadrature rule of these rows. On triangles it is exact for the square of a
-/// derivative, of degree 2 (k - 1), k the higher degree of the two components. On quadrilaterals the
-/// elements choose it (Element::strain_degree).
+/// derivative, of degree 2 (k - 1), k the higher degree of the two components. On quadrilaterals it
+/// follows from Element::strain_degree.
 const Quadrature& strain_quadrature(const VectorSpace& space);
 /// Returns the quadrature rule of strain_form. It is strain_quadrature but for Q1-selective.
 const Quadrature& gradient_quadrature(const VectorSpace& space);

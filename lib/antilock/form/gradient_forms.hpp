@@ -34,14 +34,16 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space,
 WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle);
 
 /// Returns the form that stabilises Q1 with one point per cell (D. P. Flanagan and T. Belytschko,
-/// Int. J. Numer. Methods Eng. 17, 1981). There is one row per quadrilateral, the hourglass part of
-/// u: with the corner values u_i, the corners x_i, h = (1, -1, 1, -1) and the gradient at the centre
+/// Int. J. Numer. Methods Eng. 17, 1981). There is one row per quadrilateral, in the order of the
+/// cells. It is the hourglass part of u: with the corner values u_i, the corners x_i,
+/// h = (1, -1, 1, -1) and the gradient at the centre
 ///
 ///     h . u / 4 - (h . x / 4) . grad u(centre),
 ///
-/// which is 0 for affine functions. Its entry of M is the energy of the function S T, S = 2 s - 1
-/// and T = 2 t - 1, in the form with these stiffnesses. The reduced form and this form together are
-/// the full form on any quadrilateral. Throws Error for another element than one of Q1.
+/// which is 0 for affine functions and has the unit of u. Its entry of M is the energy of the
+/// function S T, S = 2 s - 1 and T = 2 t - 1, in the form with these stiffnesses. The reduced form
+/// and this form together are the full form on any convex quadrilateral. Throws Error for another
+/// element than one of Q1.
 FactoredForm hourglass_form(const Space& space, const Stiffness& body, const Stiffness& layer);
 
 /// Returns the factored form of a_y^-(u, v) = (B u, M B v) of (23). A row of B is d_y, in space
@@ -53,7 +55,8 @@ FactoredForm layer_strain(const Space& space,
                           const std::function<Eigen::Vector2d(int triangle)>& direction = {});
 /// Returns the quadrature rule of these rows. For an element of degree k, d/dy u_h has degree k - 1
 /// on a triangle, and its square degree 2 (k - 1). So the rule is the centroid for k = 1 and the
-/// edge midpoints for k = 2. On quadrilaterals the element chooses it (Element::strain_degree).
+/// edge midpoints for k = 2. On quadrilaterals it follows from
+/// Element::strain_degree.
 const Quadrature& strain_quadrature(const Element& element);
 /// Returns the quadrature rule of gradient_form and gradient_rows. It is strain_quadrature but for
 /// Q1-selective.

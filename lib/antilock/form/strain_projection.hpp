@@ -20,10 +20,12 @@ using StrainProjection = RowMatrix;
 /// weight, a column that does not sum to 1, and an empty row.
 FactoredForm project_strain(const FactoredForm& form, const StrainProjection& projection);
 
-/// Returns the projection onto one mean per cell, for a mesh of any kind: the mean dilatation of
-/// Hughes' B-bar method. The rows of a cell must follow each other. On a quadrilateral the mean of a
-/// derivative of Q1 is its value at the centre, so that this form is that of Q1-selective
-/// (tutorials/40_switches). Throws Error for rows of a cell in two places.
+/// Returns the projection onto one mean per cell that has rows of B, for a mesh of any kind: the
+/// mean dilatation of Hughes' B-bar method, if the form is the divergence. The means stand in the
+/// order of the cells in the form, which has one strain per quadrature point. The rows of a cell
+/// must follow each other. On a convex quadrilateral the mean of a derivative of Q1 is its value at
+/// the centre. So the projected form of Q1 is that of Q1-selective (tutorials/40_switches). Throws
+/// Error for rows of a cell in two places.
 StrainProjection cell_projection(const FactoredForm& form);
 
 /// Returns the projection onto the means over the boxes of a grid that contain the centroid of a

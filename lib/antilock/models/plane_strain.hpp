@@ -44,8 +44,9 @@ struct PlaneStrain : BlockLoading {
 
 /// Assembles the problem (6) of plane strain on a vector space of triangles or quadrilaterals. The
 /// equations of fortin_soulie are rows of B with the compliance 0, behind those of div u: first
-/// those of u_x, one per triangle, then those of u_y. Throws Error for values out of range, and for
-/// hybrid_bdm1, which has no Korn inequality.
+/// those of u_x, one per triangle, then those of u_y. Throws Error for values out of range, for
+/// hybrid_bdm1 and the rotated elements, which have no Korn inequality, and for friction on
+/// quadrilaterals.
 VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& space);
 
 /// Returns the mesh with the sides x = 0 and x = 1 of the unit square free: the clamped edges of

@@ -6,9 +6,9 @@
 //
 // The first four contain the affine functions of x and y where the map is affine, on a
 // parallelogram. On another quadrilateral x and y are bilinear in s and t, so that S T is needed.
-// This fifth function has the mean 0 over each edge. It was added to the rotated element by Z. Cai,
-// J. Douglas and X. Ye (Calcolo 36, 1999), and for quadrilaterals by Z. Cai, J. Douglas, J. E.
-// Santos, D. Sheen and X. Ye (Calcolo 37, 2000).
+// This fifth function has the mean 0 over each edge. Z. Cai, J. Douglas, J. E. Santos, D. Sheen and
+// X. Ye added it to an element of this kind (Nonconforming quadrilateral finite elements: a
+// correction, Calcolo 37, 2000).
 #include "antilock/mesh/quadrature.hpp"
 #include "antilock/space/element.hpp"
 
