@@ -106,8 +106,10 @@
 //    edge means. In the body they go on as P1, so that the coarse problem is P1 on a
 //    mesh whose layer is in columns. That is where multigrid works.
 //
-// *The smoother must hold the functions that cost nothing, and the coarse space the smooth
-// ones of them.* The program tries the four pairs of prediction (c).
+// The damped sum of the corrections on the subdomains is called the *smoother*, because the
+// error that it leaves over is smooth from one subdomain to the next. *The smoother must
+// hold the functions that cost nothing, and the coarse space the smooth ones of them.* The
+// program tries the four pairs of prediction (c).
 // :figure: layer_strips
 // :figure: layer_hat
 //
@@ -125,10 +127,11 @@
 // for ever (observed). So the error must also fall below $10^{-6} \sqrt{L^T u}$. A point
 // is released only where it pulls by more than the largest entry of $r_1$ off the contact
 // set, which is 0 but for the error of the solve: the sign of a smaller force is not
-// known. With the sign alone the set changed 14 times on two ranks at 460,288 unknowns,
-// and with this condition not at all (observed). And δ is here some $h^2 / 256$. With
-// $10^{-9}$ and the sign alone it changed four times at 114,944 unknowns, and at 460,288
-// it did not settle (observed).
+// known. While a point of the set pulls, the corrections go on until the sign is known.
+// With the sign alone the set changed 14 times on two ranks at 460,288 unknowns, and with
+// this condition not at all (observed). And δ is here some $h^2 / 256$. With $10^{-9}$ and
+// the sign alone it changed four times at 114,944 unknowns, and at 460,288 it did not
+// settle (observed).
 //
 // **Two other ways.** *MUMPS* is a direct solver. It eliminates unknowns as the serial
 // factor does, but the ranks share the blocks of the factor, and send each other its
@@ -237,9 +240,10 @@ Ended on_each_rank(const Asked& ask) {
 // (observed).
 //
 // **Beyond two cores, on paper.** One iteration is three products with $A_δ$ in the split
-// form, two smoothing steps, $P$ and $P^T$, and one coarse cycle. A rank exchanges values
-// with its two neighbours 12 times (twice per product and per smoothing step, once for $P$
-// and $P^T$), besides the coarse cycle, and takes part in two global sums. The coarse
+// form, two smoothing steps, $P$ and $P^T$, and one cycle of multigrid on the coarse
+// problem; the columns of $P$ are the coarse functions. A rank exchanges values with its
+// two neighbours 12 times (twice per product and per smoothing step, once for $P$ and for
+// $P^T$), besides the coarse cycle, and takes part in two global sums. The coarse
 // problem has one unknown per vertex of the body, a sixth of all; algebraic multigrid is
 // known to scale there. $10^9$ unknowns are 1/h = 12,000. What fails first is the full
 // height of a strip: its unknowns grow like 110/h (1.3 million there; more than 500,000

@@ -250,8 +250,8 @@ class Cycle {
   double damping_ = 1;
 };
 
-/// A drawing as figures/pictures/domain.cpp reads it: one row per corner, and the first word
-/// of a name chooses the colour.
+/// A drawing as figures/pictures/domain.cpp reads it: one row per corner, and the first
+/// word of a name chooses the colour.
 struct Drawing {
   Table table = Table({"kind", "name", "label", "x", "y"});
   void points(const std::string& kind, const std::string& name,

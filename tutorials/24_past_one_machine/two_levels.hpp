@@ -48,8 +48,8 @@ void write_four_pairs(const std::filesystem::path& path, const Table& runs, int 
 /// what it shares with its neighbours, and one patch. figures/pictures/domain.cpp reads it.
 void write_strip(const std::filesystem::path& path);
 
-/// Writes no_hat.vtu and hat.vtu, the coarse function of a vertex of Sigma on gmsh's mesh of
-/// 1/h = 16, without and with its hat function in the layer.
+/// Writes no_hat.vtu and hat.vtu, the coarse function of a vertex of Sigma on gmsh's mesh
+/// of 1/h = 16, without and with its hat function in the layer.
 void write_coarse_function(const std::filesystem::path& folder);
 
 }  // namespace antilock::tutorial

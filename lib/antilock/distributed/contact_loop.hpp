@@ -67,13 +67,13 @@ struct LoopReport {
 /// sets for delta far below h^2, and 3 to 6 corrections with this condition). The first
 /// correction uses the contact set of the start. Before each later one, a point of the set stays in
 /// it if the bound presses on it (r1 < 0), and another point enters it if u is below the bound.
-/// With Preconditioner::strips a point stays, too, if r1 is not above the largest |r1| off the set,
-/// which is the error of the last solve. The loop ends where the set has not changed, and
-/// `tolerance` and `residual` are met. (A1, B, M, r1, r2 and delta are those of
-/// detail/distributed_problem.hpp.) The preconditioner is set up again if the set has changed; of
-/// the strips only those with a changed point are factored again. The old hierarchy of multigrid
-/// would need up to four times as many iterations, because a released point frees a whole column of
-/// the layer.
+/// With Preconditioner::strips a point stays, too, if r1 is below the largest |r1| off the set,
+/// which is the error of the last solve. The loop ends where the set has not changed, `tolerance`
+/// and `residual` are met, and r1 <= 0 on the set or at the level of round-off. (A1, B, M, r1, r2
+/// and delta are those of detail/distributed_problem.hpp.) The preconditioner is set up again if
+/// the set has changed; of the strips only those with a changed point are factored again. The old
+/// hierarchy of multigrid would need up to four times as many iterations, because a released point
+/// frees a whole column of the layer.
 ///
 /// The error of a start from a coarser level consists of short waves. A few smoothing steps remove
 /// them, so that the contact set is then nearly right and multigrid is set up only once. Residuals
