@@ -37,7 +37,7 @@ class Agreement : public ::testing::TestWithParam<Case> {};
 /// set.
 void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Element& page,
                       int refinements, const std::string& name,
-                      std::optional<Preconditioner> preconditioner = {}) {
+                      std::optional<Preconditioner> preconditioner = {}, int most_iterations = 15) {
   TriangleMesh mesh = coarse;
   for (int i = 0; i < refinements; ++i) mesh = antilock::refined(mesh);
   const Space space(mesh, page);
@@ -77,7 +77,8 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
   EXPECT_GE(report.kkt.min_gap, -1e-9);
   EXPECT_GE(report.kkt.min_pressure, -1e-9);
   EXPECT_LE(report.last.corrections, 8);
-  EXPECT_LE(report.last.max_iterations, preconditioner == Preconditioner::factor ? 3 : 15);
+  EXPECT_LE(report.last.max_iterations,
+            preconditioner == Preconditioner::factor ? 3 : most_iterations);
   if (!scene.contact()) {
     EXPECT_EQ(report.last.set_changes, 0);
   }
@@ -189,6 +190,20 @@ TEST(AgreementOfStrips, ReleaseNoPointForAnErrorOfTheSolve) {
   // the missing points enter at once; 3 changes where a residual releases others
   EXPECT_EQ(contact_loop(again.problem, again.state, loop).set_changes, 1);
   EXPECT_EQ(again.contact_set().active, level->contact_set().active);
+}
+
+// Far from the large load the points pull by less than the error of a solve that is good enough for
+// u. The loop must go on until it knows which of them are in contact. A solve takes 51 iterations on
+// one rank and 62 on four, because the triangles are 12 times as long as they are high.
+TEST(AgreementOfStrips, WithPullsBelowTheErrorOfTheSolve) {
+  TriangleMesh coarse = unstructured_mesh(8);
+  coarse.vertices.col(0) *= 12;
+  const auto load = [](double x, double) {
+    if (x < 2) return -1.0;
+    return x > 10 ? 1e-9 * std::sin(7 * x) : 0.0;
+  };
+  expect_agreement(Scene({load}, StiffLayer{1e-6}, UnilateralContact{}), coarse,
+                   crouzeix_raviart(), 2, "small pulls", {}, 80);
 }
 
 TEST(AgreementOfMumps, WithTheSerialLibrary) {
