@@ -202,8 +202,8 @@ TEST(AgreementOfStrips, WithPullsBelowTheErrorOfTheSolve) {
     if (x < 2) return -1.0;
     return x > 10 ? 1e-9 * std::sin(7 * x) : 0.0;
   };
-  expect_agreement(Scene({load}, StiffLayer{1e-6}, UnilateralContact{}), coarse,
-                   crouzeix_raviart(), 2, "small pulls", {}, 80);
+  expect_agreement(Scene({load}, StiffLayer{1e-6}, UnilateralContact{}), coarse, crouzeix_raviart(),
+                   2, "small pulls", {}, 80);
 }
 
 TEST(AgreementOfMumps, WithTheSerialLibrary) {

@@ -75,8 +75,8 @@ TEST(TwoBodyScenes, TheMomentIsThatOfTheForcesOnTheUpperBody) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(space.size());  // and 0 in the lower body
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Vector3i corners = mesh.triangles.row(t);
-    const double sum_of_y = mesh.vertices(corners(0), 1) + mesh.vertices(corners(1), 1) +
-                            mesh.vertices(corners(2), 1);
+    const double sum_of_y =
+        mesh.vertices(corners(0), 1) + mesh.vertices(corners(1), 1) + mesh.vertices(corners(2), 1);
     if (sum_of_y > -3)
       for (const int unknown : space.cell_dofs().row(t))
         x(unknown) = space.dof_coordinates()(unknown, 0);

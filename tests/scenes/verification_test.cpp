@@ -90,10 +90,9 @@ TEST(Verification, CooksMembraneLocksForP1) {
   const std::string scene =
       replaced(example("cook"), "cook.msh", std::string(EXAMPLE_SCENES) + "/cook.msh");
   constexpr double mu = 0.375;
-  for (const auto& [element, deflection, locks] :
-       {std::tuple{"CR", 16.644870979853, false},
-        {"P2", 16.059639198545, false},
-        {"P1", 4.662290796348, true}}) {
+  for (const auto& [element, deflection, locks] : {std::tuple{"CR", 16.644870979853, false},
+                                                   {"P2", 16.059639198545, false},
+                                                   {"P1", 4.662290796348, true}}) {
     const SceneRun run(with_element(scene, element));
     const auto summary = run.summary();
     const double mean = mu * summary["compliance"]["value"].get<double>();
@@ -110,8 +109,8 @@ TEST(Verification, CooksMembraneLocksForP1) {
 std::pair<double, double> through_the_slab(double epsilon) {
   const double pi = std::numbers::pi;
   // c = a sinh(epsilon pi) / epsilon and b = a cosh(epsilon pi) - 1 / pi^2
-  const double factor = std::cosh(epsilon * pi) * std::cosh(pi) +
-                        std::sinh(epsilon * pi) / epsilon * std::sinh(pi);
+  const double factor =
+      std::cosh(epsilon * pi) * std::cosh(pi) + std::sinh(epsilon * pi) / epsilon * std::sinh(pi);
   const double a = (std::cosh(pi) - 1) / (pi * pi * factor);
   return {a * std::cosh(epsilon * pi), a};
 }

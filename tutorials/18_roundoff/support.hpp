@@ -20,7 +20,8 @@ inline VariationalInequality turned(const Space& space, double epsilon) {
     if (space.mesh().region[t] != Region::layer) continue;
     const Eigen::MatrixX3d derivative =
         space.element().derivative(Eigen::Vector3d::Constant(1.0 / 3));
-    const Eigen::VectorXd slopes = derivative * barycentric_gradients(space.mesh(), t).col(0);
+    const Eigen::VectorXd slopes =
+        derivative * barycentric_gradients(space.mesh(), t).col(0);
     for (int i = 0; i < slopes.size(); ++i)
       entries.emplace_back(row, space.cell_dofs()(t, i), slopes(i));
     ++row;

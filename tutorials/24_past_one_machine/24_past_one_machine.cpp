@@ -276,7 +276,8 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
   const Table growth = pairs.filter("delta", 1e-6);
   report.stage("a layer without columns, distributed; SNESVI; the serial library");
   const Table without = on_ranks({"multigrid", 1, 32, epsilon}),
-              told = on_ranks("any layer", {1, 2, 4}, [](int) { return 32; }, epsilon),
+              told = on_ranks(
+                  "any layer", {1, 2, 4}, [](int) { return 32; }, epsilon),
               split = on_ranks({"SNESVI, split", 1, 32, 1e-6}),
               coarse = on_ranks({"SNESVI, summed", 1, 32, 1e-2}),
               summed = on_ranks({"SNESVI, summed", 1, 32, 1e-6}),

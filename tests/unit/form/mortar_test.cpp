@@ -64,22 +64,22 @@ TEST(Mortar, ItsRowsAreMeansOfEachSide) {
 TEST(Mortar, AConstantPressureGivesConsistentForces) {
   // sum_i lengths_i row_i v = int [v] for every v, since the psi_i sum to 1
   for (const bool free_sides : {true, false})
-    for_all_constraints(
-        free_sides, [](const Space& space, const InterfaceConstraints& found, bool upper_slave) {
-          if (found.points.rows() == found.places.rows()) return;  // node to segment
-          Eigen::VectorXd integral = Eigen::VectorXd::Zero(space.size());
-          const TriangleMesh& mesh = space.mesh();
-          for (int e = 0; e < mesh.edge_count(); ++e) {
-            if (mesh.edge_tag[e].group < 0) continue;
-            const int t = mesh.edge_triangles(e, 0);
-            const double sign = (mesh.edge_tag[e] == upper_side) == upper_slave ? 1 : -1;
-            integral(space.cell_dofs().row(t)) +=
-                sign * mesh.edge_length(e) * means_on_facet(space.element(), local_edge(mesh, t, e));
-          }
-          EXPECT_LT((found.jump.transpose() * found.lengths - integral).lpNorm<Eigen::Infinity>(),
-                    1e-14);
-          EXPECT_NEAR(found.lengths.sum(), 1, 1e-14);
-        });
+    for_all_constraints(free_sides, [](const Space& space, const InterfaceConstraints& found,
+                                       bool upper_slave) {
+      if (found.points.rows() == found.places.rows()) return;  // node to segment
+      Eigen::VectorXd integral = Eigen::VectorXd::Zero(space.size());
+      const TriangleMesh& mesh = space.mesh();
+      for (int e = 0; e < mesh.edge_count(); ++e) {
+        if (mesh.edge_tag[e].group < 0) continue;
+        const int t = mesh.edge_triangles(e, 0);
+        const double sign = (mesh.edge_tag[e] == upper_side) == upper_slave ? 1 : -1;
+        integral(space.cell_dofs().row(t)) +=
+            sign * mesh.edge_length(e) * means_on_facet(space.element(), local_edge(mesh, t, e));
+      }
+      EXPECT_LT((found.jump.transpose() * found.lengths - integral).lpNorm<Eigen::Infinity>(),
+                1e-14);
+      EXPECT_NEAR(found.lengths.sum(), 1, 1e-14);
+    });
 }
 
 TEST(Mortar, TheDualBasisIsDiagonalOnTheSlaveSide) {
