@@ -311,7 +311,8 @@ std::vector<FacetEdge> held_edges_of_contact(const Mesh& mesh) {
 /// energy has no jump along a part of an edge.
 void check_contact_on_mesh(const SceneFile& file, const Mesh& mesh) {
   const UnilateralContact& contact = *file.scene.contact();
-  const auto& [gap, zero_at, upper_obstacle] = contact;
+  // no structured binding: before version 16 clang captures none in a lambda
+  const Profile &gap = contact.gap, &upper_obstacle = contact.upper_obstacle;
   const bool in_space = mesh.dimension() == 3;
   const int parts = in_space ? 8 : 32;
   const Eigen::VectorXd values = prescribed(file, mesh);
