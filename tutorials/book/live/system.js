@@ -257,7 +257,7 @@ async function unpacked(text) {
 
 /// A mesh as the library keeps it from what wasm/pack made of it: its coordinates byte by byte, its cells as differences.
 function mesh(name, bytes) {
-  const d = name.startsWith("tetrahedra") ? 3 : 2, corners = d + 1;
+  const d = name.startsWith("tetrahedra") ? 3 : 2, corners = name.startsWith("unstructured") ? 3 : 4;
   const view = new DataView(bytes.buffer), [vertices, cells] = [0, 8].map((at) => view.getUint32(at, true));
   const begin = 16, end = begin + 8 * d * vertices, planes = bytes.slice(begin, end), step = d * vertices;
   for (let i = 0; i < step; ++i) for (let k = 0; k < 8; ++k) bytes[begin + 8 * i + k] = planes[k * step + i];
