@@ -251,11 +251,11 @@ const Switch full{"full", &q1()}, selective{"selective", &q1(Integration::select
 const std::vector<Switch> switches{full,       selective, b_bar,        reduced,
                                    stabilised, rotated,   rotated_means};
 
-VariationalInequality assemble(const Scene& scene, const Space& space, const Switch& of,
+VariationalInequality assemble(const Scene& scene, const Space& space, const Switch& choice,
                                double across = 0) {
   VariationalInequality problem = assemble(scene, space);
-  if (of.means) problem = project_strain(problem, cell_projection(layer_strain(space)));
-  if (of.stabilised) {
+  if (choice.means) problem = project_strain(problem, cell_projection(layer_strain(space)));
+  if (choice.stabilised) {
     const FactoredForm form = hourglass_form(space, {1, 1}, {1, across});
     problem.a1 += SparseMatrix(form.b.transpose() * form.m.asDiagonal() * form.b);
   }
@@ -269,10 +269,10 @@ const std::vector<double> epsilons{1,    0.3,  0.1,  0.03, 0.01, 3e-3,
                                    1e-3, 1e-4, 1e-5, 1e-6, 0};
 
 // One switch on one mesh at every ε, in contact.
-Table solve_all(const Switch& of, const std::string& family, int cells,
+Table solve_all(const Switch& choice, const std::string& family, int cells,
                 const std::vector<Exact>& exact_solutions) {
-  const Space space(family_mesh(family, cells), *of.element);
-  Sweep sweep(assemble(tutorial::paper_scene(1), space, of));
+  const Space space(family_mesh(family, cells), *choice.element);
+  Sweep sweep(assemble(tutorial::paper_scene(1), space, choice));
   Table rows(
       {"method", "switch", "mesh", "cells", "h", "unknowns", "epsilon", "h1", "kept"});
   for (const Exact& exact : exact_solutions) {
@@ -280,7 +280,7 @@ Table solve_all(const Switch& of, const std::string& family, int cells,
     Solution solution = sweep.solve();
     solution.p.resize(0);  // errors of u alone: means are no stresses at points
     const double largest = solution.u(space.contact_dofs()).maxCoeff();
-    rows.add({of.name + " " + family, of.name, family, cells, 1.0 / cells,
+    rows.add({choice.name + " " + family, choice.name, family, cells, 1.0 / cells,
               space.free_count(), exact.epsilon, exact.errors(space, solution).h1,
               largest / exact.solution.max_on_contact()});
   }
@@ -293,16 +293,17 @@ Table describe(const std::vector<int>& cells) {
   Table rows({"switch", "mesh", "cells", "kernel", "derived", "alpha", "patch"});
   for (const std::string& family : families)
     for (const int n : cells)
-      for (const Switch& of : switches) {
-        const Space space(family_mesh(family, n), *of.element);
-        const VariationalInequality problem = assemble(tutorial::paper_scene(1), space, of);
+      for (const Switch& choice : switches) {
+        const Space space(family_mesh(family, n), *choice.element);
+        const VariationalInequality problem =
+            assemble(tutorial::paper_scene(1), space, choice);
         const tutorial::LayerCounts layer = tutorial::layer_counts(space.mesh());
         int derived = family == "structured" ? n - 1 : 0;
-        if (&of == &switches.back())
+        if (&choice == &switches.back())
           derived = 2 * layer.cells + (layer.sigma + layer.bottom - layer.sides) / 2;
         // Q1-reduced has the unknowns of Q1, and its norm is that of Q1
-        const Element& norm = of.element->conforming() ? q1() : *of.element;
-        rows.add({of.name, family, n, layer_kernel_dimension(problem), derived,
+        const Element& norm = choice.element->conforming() ? q1() : *choice.element;
+        rows.add({choice.name, family, n, layer_kernel_dimension(problem), derived,
                   coercivity(problem, h1_gram_matrix(Space(space, norm))),
                   tutorial::patch_test(space, problem)});
       }
@@ -316,18 +317,18 @@ Scene pin_scene(int cells) {
   return Scene(Body{[](double, double) { return 0.0; }}, StiffLayer{1},
                UnilateralContact{gap});
 }
-Solution solve_pin(const Space& space, int cells, const Switch& of) {
-  return active_set(assemble(pin_scene(cells), space, of));
+Solution solve_pin(const Space& space, int cells, const Switch& choice) {
+  return active_set(assemble(pin_scene(cells), space, choice));
 }
 // The force of the pin, and u at the node beside it over the height of the pin.
 Table press(int cells) {
   Table rows({"switch", "mesh", "force", "neighbour"});
   for (const char* family : {"structured", "jittered"})
-    for (const Switch& of : {full, selective, reduced, stabilised}) {
-      const Space space(family_mesh(family, cells), *of.element);
-      const Solution solution = solve_pin(space, cells, of);
+    for (const Switch& choice : {full, selective, reduced, stabilised}) {
+      const Space space(family_mesh(family, cells), *choice.element);
+      const Solution solution = solve_pin(space, cells, choice);
       const auto middle = static_cast<int>(space.contact_dofs().size()) / 2;
-      rows.add({of.name, family, solution.lambda.sum(),
+      rows.add({choice.name, family, solution.lambda.sum(),
                 solution.u(space.contact_dofs()[middle + 1]) / 0.1});
     }
   return rows;
@@ -341,18 +342,18 @@ Table press_rubber(const std::vector<int>& cells) {
     for (const int n : cells) {
       const Domain body{0, CellKind::quadrilateral};
       const Mesh mesh = with_free_sides(family_mesh(family, n, body));
-      for (const Switch& of : {full, selective, b_bar, reduced}) {
-        const Space space(mesh, *of.element);
+      for (const Switch& choice : {full, selective, b_bar, reduced}) {
+        const Space space(mesh, *choice.element);
         PlaneStrain scene;
         scene.epsilon = 1e-8;
         scene.gap = [](double x) { return (x - 0.5) * (x - 0.5); };
         VariationalInequality problem = assemble(scene, VectorSpace{space, space});
-        if (of.means) {
+        if (choice.means) {
           const FactoredForm div = divergence({space, space});
           problem = project_strain(problem, cell_projection(div));
         }
         const double force = active_set(problem).lambda.sum();
-        rows.add({of.name, family, n, 2 * space.free_count(), problem.b.rows(),
+        rows.add({choice.name, family, n, 2 * space.free_count(), problem.b.rows(),
                   kernel_dimension(problem),
                   tutorial::percent_too_large(force, scene.epsilon)});
       }
@@ -365,12 +366,14 @@ Table press_rubber(const std::vector<int>& cells) {
 void write_second_opinion(const std::filesystem::path& out) {
   Table values({"switch", "u"});
   const Mesh mesh = family_mesh("jittered", 8);
-  for (const Switch& of : {full, selective, b_bar, reduced, stabilised, rotated_means}) {
-    const Space space(mesh, *of.element);
-    const Solution solution = active_set(assemble(tutorial::paper_scene(0.01), space, of));
+  for (const Switch& choice :
+       {full, selective, b_bar, reduced, stabilised, rotated_means}) {
+    const Space space(mesh, *choice.element);
+    const Solution solution =
+        active_set(assemble(tutorial::paper_scene(0.01), space, choice));
     for (int t = 0; t < mesh.triangle_count(); ++t)
       for (const int unknown : space.cell_dofs().row(t))
-        values.add({of.name, solution.u(unknown)});
+        values.add({choice.name, solution.u(unknown)});
   }
   tutorial::write_mesh(out, mesh);
   values.write(out / "second_opinion.csv");
@@ -384,8 +387,8 @@ void judge_forms(const Table& forms, tutorial::Report& report) {
   for (const std::string& family : families) {
     const Mesh mesh = family_mesh(family, 6);
     const Scene scene = tutorial::paper_scene(1);
-    const auto problem = [&](const Switch& of) {
-      return assemble(scene, Space(mesh, *of.element), of);
+    const auto problem = [&](const Switch& choice) {
+      return assemble(scene, Space(mesh, *choice.element), choice);
     };
     const VariationalInequality one = problem(selective), means = problem(b_bar);
     difference = std::max({difference, (one.b - means.b).norm() / one.b.norm(),
@@ -399,10 +402,10 @@ void judge_forms(const Table& forms, tutorial::Report& report) {
       to_full < 1e-13,
       "stabilised is selective integration on all three meshes, to {:.0e} (proved)",
       to_full);
-  for (const Switch& of : switches)
-    report.claim(forms.filter("switch", of.name).max("patch") < 1e-10,
-                 "{} passes the patch test on each mesh (proved): {:.0e}", of.name,
-                 forms.filter("switch", of.name).max("patch"));
+  for (const Switch& choice : switches)
+    report.claim(forms.filter("switch", choice.name).max("patch") < 1e-10,
+                 "{} passes the patch test on each mesh (proved): {:.0e}", choice.name,
+                 forms.filter("switch", choice.name).max("patch"));
 }
 void judge_coercivity(const Table& forms, tutorial::Report& report) {
   for (const std::string& family : families) {
@@ -413,11 +416,11 @@ void judge_coercivity(const Table& forms, tutorial::Report& report) {
         "{}, reduced: alpha is at most C h^2 (proved), and has the order {:.2f} from 1/4 "
         "to 1/8 (observed)",
         family, -order);
-    for (const Switch* of : {&selective, &stabilised, &rotated_means}) {
-      const Table rows = own.filter("switch", of->name);
+    for (const Switch* choice : {&selective, &stabilised, &rotated_means}) {
+      const Table rows = own.filter("switch", choice->name);
       report.claim_within(rows.min("alpha"), 0.2, 0.9129,
                           fmt::format("{}, {}: the smallest alpha (bounded below: proved)",
-                                      family, of->name));
+                                      family, choice->name));
     }
   }
 }
@@ -444,43 +447,43 @@ void judge_errors(const Table& all, double lost, tutorial::Report& report) {
                        fmt::format("rotated, means, {}: worst H1 error over epsilon "
                                    "(it falls: proved; order observed)",
                                    family));
-  for (const char* of : {"full", "selective", "stabilised"})
-    report.claim_order(worst(std::string(of) + " structured"), "worst", "h", 0.8, 1.2,
-                       fmt::format("{}, structured: worst H1 error (observed)", of));
+  for (const char* choice : {"full", "selective", "stabilised"})
+    report.claim_order(worst(std::string(choice) + " structured"), "worst", "h", 0.8, 1.2,
+                       fmt::format("{}, structured: worst H1 error (observed)", choice));
   for (const char* family : {"jittered", "recombined"})
-    for (const char* of : {"full", "selective", "reduced", "stabilised", "rotated"}) {
-      const Table rows = all.filter("switch", of).filter("mesh", family);
+    for (const char* choice : {"full", "selective", "reduced", "stabilised", "rotated"}) {
+      const Table rows = all.filter("switch", choice).filter("mesh", family);
       const Table rigid = rows.filter("epsilon", 0);
       report.claim(rigid.max("kept") < 1e-6 && rigid.min("h1") >= lost,
                    "{}, {}: nothing is left of the layer at epsilon = 0, and the error is "
                    "at least {:.3f} (proved), on the finest mesh {:.3f}",
-                   of, family, lost, rigid.last("h1"));
+                   choice, family, lost, rigid.last("h1"));
     }
 }
 
 void judge_lengths(const Table& k, tutorial::Report& report) {
   for (const char* family : {"jittered", "recombined"}) {
-    const auto of = [&](const char* name) {
+    const auto length_of = [&](const char* name) {
       return k.filter("mesh", family)
           .filter("switch", name)
           .filter("h", 1.0 / 16)
           .number("k");
     };
-    const double ratio = of("full") / of("selective");
+    const double ratio = length_of("full") / length_of("selective");
     report.claim(
         ratio > 10,
         "{}, h = 1/16: selective integration loses half at epsilon = {:.2g}, {:.0f} "
         "times smaller than full integration (observed)",
-        family, of("selective"), ratio);
+        family, length_of("selective"), ratio);
   }
 }
 
 void judge_rubber(const Table& rubber, tutorial::Report& report) {
   for (const std::string& family : families) {
-    const auto of = [&](const Switch& one) {
+    const auto rows_of = [&](const Switch& one) {
       return rubber.filter("mesh", family).filter("switch", one.name);
     };
-    const Table one = of(selective);
+    const Table one = rows_of(selective);
     bool independent = true;
     for (const Table& row : one.rows())
       independent = independent &&
@@ -490,12 +493,12 @@ void judge_rubber(const Table& rubber, tutorial::Report& report) {
         "rubber, {}: no condition of selective integration follows from the others "
         "(observed)",
         family);
-    report.claim(std::abs(one.last("percent") - of(b_bar).last("percent")) < 1e-3,
+    report.claim(std::abs(one.last("percent") - rows_of(b_bar).last("percent")) < 1e-3,
                  "rubber, {}: B-bar has the same force (proved)", family);
-    report.claim(std::abs(one.last("percent")) < 1 && of(full).last("percent") > 1000,
+    report.claim(std::abs(one.last("percent")) < 1 && rows_of(full).last("percent") > 1000,
                  "rubber, {}: the force is {:.2f} % too large with one condition per cell, "
                  "and {:.2g} % with full integration (observed)",
-                 family, one.last("percent"), of(full).last("percent"));
+                 family, one.last("percent"), rows_of(full).last("percent"));
   }
 }
 
@@ -518,13 +521,13 @@ void print_tables(const Table& forms, const Table& all, const Table& pins,
         .print("H1 error, " + family, 3);
   Table suprema({"mesh", "h", "switch", "worst"});
   for (const std::string& family : families)
-    for (const Switch& of : switches)
-      if (of.name != b_bar.name)
+    for (const Switch& choice : switches)
+      if (choice.name != b_bar.name)
         for (const Table& row :
-             tutorial::supremum(all.filter("method", of.name + " " + family), "h1",
+             tutorial::supremum(all.filter("method", choice.name + " " + family), "h1",
                                 "epsilon")
                  .rows.rows())
-          suprema.add({family, row.number("h"), of.name, row.number("worst")});
+          suprema.add({family, row.number("h"), choice.name, row.number("worst")});
   for (const std::string& family : families)
     suprema.filter("mesh", family)
         .pivot("h", "switch", "worst")
@@ -550,15 +553,16 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
       {"method", "switch", "mesh", "cells", "h", "unknowns", "epsilon", "h1", "kept"});
   for (const std::string& family : families) {
     report.stage(family);
-    for (const Switch& of : switches)
-      if (of.name != b_bar.name)
-        for (const int n : cells) all.add(solve_all(of, family, n, exact));
+    for (const Switch& choice : switches)
+      if (choice.name != b_bar.name)
+        for (const int n : cells) all.add(solve_all(choice, family, n, exact));
   }
   report.stage("a pin");
   const Table pins = press(16);
-  for (const Switch& of : {reduced, stabilised}) {
-    const Space space(family_mesh("structured", 16), *of.element);
-    write_vtu(options.out / (of.name + "_pin.vtu"), space, solve_pin(space, 16, of).u);
+  for (const Switch& choice : {reduced, stabilised}) {
+    const Space space(family_mesh("structured", 16), *choice.element);
+    write_vtu(options.out / (choice.name + "_pin.vtu"), space,
+              solve_pin(space, 16, choice).u);
   }
   write_second_opinion(options.out);
   report.stage("rubber");
