@@ -55,7 +55,7 @@ LockingReport locking_beside_cr(
       "; beside CR on this mesh it loses about {:.0f} % of the energy that the layer's motion "
       "releases",
       100 * report.estimate);
-  if (report.estimate >= telling_share)
+  if (report.estimate >= comparison_significance)
     report.warning = fmt::format(
         "{} locks in this layer: it loses about {:.0f} % of the energy that the layer's motion "
         "releases (by a second solve, with CR); remedy: element = \"CR\", or a layer in columns",

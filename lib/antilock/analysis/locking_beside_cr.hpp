@@ -17,7 +17,7 @@ VariationalInequality with_layer_at_rest(VariationalInequality problem, const Sp
 /// The share beside another mesh or element from which a loss is attributed to locking. At epsilon
 /// = 1, where nothing locks, the share beside columns was 0 to 24 % for loads of one to three waves
 /// on gmsh's tetrahedra with 3 to 12 cells.
-inline constexpr double telling_share = 0.25;
+inline constexpr double comparison_significance = 0.25;
 
 /// Reports how much a conforming element loses beside Crouzeix-Raviart on the same mesh. For both
 /// elements the motion of the layer releases the energy R = J_0 - J, where J is the minimum and J_0
@@ -25,7 +25,7 @@ inline constexpr double telling_share = 0.25;
 /// one element, so that most of the errors in the body cancel. `assemble_on` assembles the problem
 /// of `result` on a space. This takes three more solves.
 ///
-/// It warns if telling_share is lost. At epsilon = 1, where nothing locks, the share was 0 to 12 %
+/// It warns if comparison_significance is lost. At epsilon = 1, where nothing locks, the share was 0 to 12 %
 /// for a load of one wave on gmsh's tetrahedra with 3 to 12 cells. It can be larger where the mesh
 /// does not resolve the load: three waves on six cells gave 38 %.
 ///

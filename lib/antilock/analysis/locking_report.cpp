@@ -21,14 +21,14 @@ namespace {
 /// Shares of the energy that the motion of the layer releases, and the one from which a loss is
 /// attributed to locking.
 struct Shares {
-  double estimate, lower_bound, telling;
+  double estimate, lower_bound, threshold;
 };
 
 LockingReport with_shares(LockingReport report, const Scene& scene, const Element& element,
                           const Shares& shares, double reference) {
-  const auto& [estimate, lower_bound, telling] = shares;
-  const bool locks = estimate >= telling;
-  const bool by_proof = !locks || lower_bound >= telling;
+  const auto& [estimate, lower_bound, threshold] = shares;
+  const bool locks = estimate >= threshold;
+  const bool by_proof = !locks || lower_bound >= threshold;
   if (by_proof) report.lost = lower_bound;
   report.estimate = estimate;
   report.reference = reference;
@@ -36,7 +36,7 @@ LockingReport with_shares(LockingReport report, const Scene& scene, const Elemen
     report.diagnosis +=
         reference > 0
             ? fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy",
-                          *scene.epsilon(), 100 * telling)
+                          *scene.epsilon(), 100 * threshold)
             : "; the layer moves no further than round-off here";
     return report;
   }
@@ -84,11 +84,12 @@ LockingReport loss_in_space(const Scene& scene, const Result& result, LockingRep
     const auto solver = [](const VariationalInequality& problem) { return active_set(problem); };
     return locking_beside_cr(result, assemble_on, solver, report.diagnosis);
   }
-  // A load on the layer is integrated on two meshes, whose errors of quadrature the proof leaves out.
+  // A load on the layer is integrated on two meshes, and the proof leaves out the errors of these
+  // two quadratures.
   const auto* const layer = std::get_if<StiffLayer>(&scene.layer());
   const double proved = layer != nullptr && layer->load ? 0 : loss.proved_share();
   return with_shares(std::move(report), scene, space.element(),
-                     {loss.estimated_share(), proved, telling_share}, loss.reference);
+                     {loss.estimated_share(), proved, comparison_significance}, loss.reference);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace antilock {
 /// - The warning says "proved" and gives the share of the lower bound if this share, too, is at
 ///   least `significance`. Otherwise it gives the estimate, and `lost` is empty.
 ///
-/// On tetrahedra loss_beside_columns measures the same, with telling_share, 25 %, in place of 5 %.
+/// On tetrahedra loss_beside_columns measures the same, with comparison_significance, 25 %, in place of 5 %.
 /// Where it throws locking_beside_cr makes an estimate. On more than a million faces nothing is
 /// measured, and the report warns of each mesh that is not aligned. On quadrilaterals nothing is
 /// known.

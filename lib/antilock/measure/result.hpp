@@ -26,7 +26,7 @@ struct LockingReport {
   /// The share of LockingLoss::lower_bound, on tetrahedra that of LossBesideColumns. It is empty in
   /// four cases: nothing can lock; the function that computes it throws; it is not called, as for
   /// two bodies; or locking is not proved, which means that `estimate` is at least 5 %
-  /// (`significance`, on tetrahedra telling_share) but the share of the lower bound is below it.
+  /// (`significance`, on tetrahedra comparison_significance) but the share of the lower bound is below it.
   std::optional<double> lost = {};
   /// Empty if `estimate` is below 5 %, or below a quarter on tetrahedra and for two bodies.
   /// Otherwise it is one sentence that contains "locks", the share, its origin and the remedies.
