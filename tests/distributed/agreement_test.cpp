@@ -193,8 +193,8 @@ TEST(AgreementOfStrips, ReleaseNoPointForAnErrorOfTheSolve) {
 }
 
 // Far from the large load the points pull by less than the error of a solve that is good enough for
-// u. The loop must go on until it knows which of them are in contact. A solve takes 51 iterations on
-// one rank and 62 on four, because the triangles are 12 times as long as they are high.
+// u. The loop must go on until it knows which of them are in contact. A solve takes 51 iterations
+// on one rank and 62 on four, because the triangles are 12 times as long as they are high.
 TEST(AgreementOfStrips, WithPullsBelowTheErrorOfTheSolve) {
   TriangleMesh coarse = unstructured_mesh(8);
   coarse.vertices.col(0) *= 12;

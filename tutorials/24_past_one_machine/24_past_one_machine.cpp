@@ -255,8 +255,8 @@ Ended on_each_rank(const Asked& ask) {
 // **In space** `solver = "petsc"` refuses tetrahedra in one line. Tubes over squares of
 // $Σ$ would be the strips, and hat functions of $(x, y)$, by face means, the coarse space.
 // In a prototype they took 27 to 33 iterations for every δ on 10,256 to 251,574 unknowns.
-// What is missing is the partition by $(x, y)$, face means on unstructured $Σ$, and a
-// smaller damping where four tubes and the body meet.
+// The library does not divide a mesh by $(x, y)$ yet, and has no face means on an
+// unstructured $Σ$. It also needs a smaller damping where four tubes and the body meet.
 void past_one_machine(const tutorial::Options& options, tutorial::Report& report) {
   const double epsilon = options.epsilon;
   const auto same = [&](int) { return options.cells; };

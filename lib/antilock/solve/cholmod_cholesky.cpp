@@ -190,7 +190,7 @@ class CholmodCholesky final : public SparseCholesky {
     constexpr double as_long_as_metis = 40'000;
     if (common_.fl < as_long_as_metis * common_.anz) return;
     if (!cholmod_metis || cholmod_metis(&whole, nullptr, 0, 1, order.data(), &common_) == 0)
-      return;  // the order of CAMD is slower, and as good otherwise
+      return;  // the factor in the order of CAMD takes longer, and is as accurate
     std::stable_partition(order.begin(), order.end(), [&](int row) { return row < interior; });
     const double entries_by_camd = common_.lnz;
     const auto release = [&](cholmod_factor* l) { cholmod_free_factor(&l, &common_); };
